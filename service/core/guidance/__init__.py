@@ -1,0 +1,1 @@
+"""From a frame to a hint: pure parts of the live guidance."""

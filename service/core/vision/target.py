@@ -1,0 +1,73 @@
+"""What a target looks like: its pattern, its corners in metres, and the words that describe it.
+
+The chessboard's frame: origin at corner 0, x along the columns, y along the rows, z away from the camera when the
+board is upright and faces it. The square that lies diagonally outside corner 0 is dark; on a board with an odd and
+an even number of corners this fixes the order, whichever way up the board is held.
+"""
+
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from service.core.errors import TargetSpecInvalid
+from service.core.vision.transforms import Array
+
+PATTERN = re.compile(r"chessboard:(\d{1,2})x(\d{1,2})(?::(\d+(?:\.\d+)?)mm)?")
+
+
+@dataclass(frozen=True)
+class Chessboard:
+    """A chessboard by its inner corners (columns x rows) and the side of one square, m."""
+
+    columns: int
+    rows: int
+    square_m: float
+
+    @property
+    def object_points(self) -> Array:
+        """Corners (rows * columns, 3), m: row by row, z = 0."""
+        grid = np.zeros((self.rows * self.columns, 3))
+        grid[:, 0] = np.tile(np.arange(self.columns), self.rows) * self.square_m
+        grid[:, 1] = np.repeat(np.arange(self.rows), self.columns) * self.square_m
+        return grid
+
+    @property
+    def centre(self) -> Array:
+        """The middle of the corners (3,), m."""
+        return np.array([(self.columns - 1) / 2, (self.rows - 1) / 2, 0.0]) * self.square_m
+
+    @property
+    def outer_corners(self) -> tuple[int, int, int, int]:
+        """Indices of the four outermost corners: top left, top right, bottom right, bottom left."""
+        last = self.rows * self.columns - 1
+        return 0, self.columns - 1, last, last - self.columns + 1
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether the pattern looks the same turned by 180 degrees, so that the order of corners is a choice."""
+        return (self.columns + self.rows) % 2 == 0
+
+    @property
+    def spec(self) -> str:
+        """The words that `parse_target` reads."""
+        return f"chessboard:{self.columns}x{self.rows}:{self.square_m * 1000:g}mm"
+
+
+def parse_target(spec: str) -> Chessboard:
+    """Return the target of a description such as `chessboard:9x6:25mm` (inner corners; 1 m squares if no size).
+
+    Raises TargetSpecInvalid when it does not follow the pattern or the board is smaller than 3x3.
+    """
+    match = PATTERN.fullmatch(spec.strip())
+    if match is None:
+        raise TargetSpecInvalid(
+            f"'{spec}' is not a target; write chessboard:COLUMNSxROWS:SIZEmm with inner corners, "
+            "for example chessboard:9x6:25mm.",
+            spec=spec,
+        )
+    columns, rows = int(match[1]), int(match[2])
+    square_m = float(match[3]) / 1000 if match[3] else 1.0
+    if min(columns, rows) < 3 or square_m <= 0:
+        raise TargetSpecInvalid("A chessboard needs at least 3x3 inner corners and squares larger than 0 mm.", spec=spec)
+    return Chessboard(columns, rows, square_m)
