@@ -1,0 +1,1 @@
+"""One file per outside thing, named `<port>_<kind>`; use cases see only the Protocols of `service.ports`."""

@@ -1,0 +1,88 @@
+"""What use cases ask of the outside world, as Protocols.
+
+A Protocol stands here only where two implementations exist (a fake of the tests counts). The database is not
+one of them: SQLAlchemy already is the port between SQLite and PostgreSQL.
+"""
+
+from collections.abc import Callable, Mapping
+from datetime import datetime
+from typing import Any, Protocol
+from uuid import UUID
+
+from sqlalchemy.orm import Session
+
+JsonObject = dict[str, Any]
+
+
+class Clock(Protocol):
+    """Tells the time."""
+
+    def now(self) -> datetime:
+        """Return the time now, aware and in UTC."""
+        ...
+
+
+class BlobStore(Protocol):
+    """Keeps bytes under the SHA-256 of their content; what is stored never changes."""
+
+    def put(self, content: bytes) -> str:
+        """Store `content` durably and return its SHA-256 in hex; storing it again changes nothing.
+
+        Raises BlobStoreUnavailable, with nothing half-written, when it cannot be stored.
+        """
+        ...
+
+    def get(self, sha256: str) -> bytes:
+        """Return the content; raises BlobMissing, or BlobDamaged when it is not what was stored."""
+        ...
+
+    def contains(self, sha256: str) -> bool:
+        """Return whether the content is there."""
+        ...
+
+    def check(self) -> None:
+        """Raise BlobStoreUnavailable unless content could be stored now."""
+        ...
+
+
+class JobCancelled(Exception):  # noqa: N818 - it says what happened and is no error
+    """Ends a handler whose job was cancelled or taken over; raised by `JobRun.report`."""
+
+
+class JobRun(Protocol):
+    """One job that is running, as its handler sees it."""
+
+    @property
+    def job_id(self) -> UUID:
+        """The id of the job."""
+        ...
+
+    @property
+    def arguments(self) -> JsonObject:
+        """What the job was queued with."""
+        ...
+
+    def report(self, progress: float) -> None:
+        """Say that `progress` (0 to 1) is done; cheap enough for an inner loop; raises JobCancelled."""
+        ...
+
+
+JobCompletion = Callable[[Session], JsonObject]
+"""Writes what a job has found, in the very transaction that marks it done, and returns the job's result."""
+
+JobHandler = Callable[[JobRun], JobCompletion]
+"""Does a job's work outside any transaction. After a crash it runs again, so only its completion writes."""
+
+JobHandlers = Mapping[str, JobHandler]
+
+
+class JobQueue(Protocol):
+    """Work in the background; a job is queued in the caller's transaction and exists when that commits."""
+
+    def enqueue(self, session: Session, kind: str, arguments: JsonObject) -> UUID:
+        """Queue a job and return its id; `kind` names its handler."""
+        ...
+
+    def cancel(self, session: Session, job_id: UUID) -> None:
+        """Cancel a job that is queued or running; raises JobNotFound, JobAlreadyEnded."""
+        ...

@@ -1,0 +1,1 @@
+"""What the service remembers: tables, sessions, named reads and the queues that are tables."""
