@@ -11,7 +11,7 @@ import numpy as np
 
 from service.core.errors import IntrinsicsInvalid
 from service.core.vision import lens_pinhole5
-from service.core.vision.transforms import Array, skew
+from service.core.vision.transforms import Array
 
 LENSES: Mapping[str, ModuleType] = {lens_pinhole5.NAME: lens_pinhole5}
 PINHOLE = ("fx", "fy", "cx", "cy")
@@ -19,7 +19,7 @@ PINHOLE = ("fx", "fy", "cx", "cy")
 
 @dataclass(frozen=True)
 class Intrinsics:
-    """Lens model, camera_matrix (3, 3) px, dist_coeffs (c,) in the lens's order, image_size (width, height) px."""
+    """Lens, camera_matrix (3, 3) px, dist_coeffs (c,) in the lens's order, image_size (width, height) px."""
 
     lens: str
     camera_matrix: Array
@@ -62,19 +62,21 @@ class Intrinsics:
             )
         vector = np.array([float(parameters.get(name, 0.0)) for name in names])
         if not np.all(np.isfinite(vector)) or min(vector[0], vector[1]) <= 0 or min(image_size) < 16:
-            raise IntrinsicsInvalid("Values must be finite, fx and fy positive, the image at least 16 px wide and high.")
+            raise IntrinsicsInvalid(
+                "Values must be finite, fx and fy positive, the image at least 16 px wide and high."
+            )
         return cls.from_vector(lens, vector, image_size)
 
 
 def parameter_names(lens: str) -> tuple[str, ...]:
-    """Return the names of a lens's parameters, fx fy cx cy first. Raises IntrinsicsInvalid for an unknown lens."""
+    """Return the names of a lens's parameters, fx fy cx cy first; IntrinsicsInvalid for an unknown lens."""
     if lens not in LENSES:
         raise IntrinsicsInvalid(f"Lens '{lens}' is not known; choose one of: {', '.join(LENSES)}.", lens=lens)
     return PINHOLE + tuple(LENSES[lens].COEFFICIENTS)
 
 
 def project_camera_points(intrinsics: Intrinsics, points: Array) -> Array:
-    """Return pixels (..., 2) of camera-frame points (..., 3), m; NaN for points behind or beside the camera."""
+    """Return pixels (..., 2) of camera-frame points (..., 3), m; NaN behind or beside the camera."""
     model, vector = LENSES[intrinsics.lens], intrinsics.vector
     z = points[..., 2:3]
     ideal = np.where(z > 1e-9, points[..., :2], np.nan) / np.where(z > 1e-9, z, 1.0)
@@ -83,8 +85,11 @@ def project_camera_points(intrinsics: Intrinsics, points: Array) -> Array:
 
 
 def project(intrinsics: Intrinsics, rotation: Array, translation: Array, object_points: Array) -> Array:
-    """Return image points (..., n, 2) px of board points (n, 3) m under rotations (..., 3, 3), translations (..., 3)."""
-    points = np.einsum("...ij,nj->...ni", rotation, object_points) + translation[..., None, :]
+    """Return image points (..., n, 2) px of board points (n, 3) or (..., n, 3) m.
+
+    rotation: (..., 3, 3); translation: (..., 3) m. NaN for points behind or beside the camera.
+    """
+    points = object_points @ np.swapaxes(rotation, -1, -2) + translation[..., None, :]
     return project_camera_points(intrinsics, points)
 
 
@@ -95,8 +100,8 @@ def project_with_jacobians(
 
     lens: model name; vector: (p,) or (v, p) parameters; rotation: (v, 3, 3); translation: (v, 3) m;
     object_points: (n, 3) or (v, n, 3) m.
-    Returns image points (v, n, 2) px, derivatives by the parameters (v, n, 2, p), and by the pose (v, n, 2, 6):
-    a left increment exp(ω) R in rad first, then the translation in m.
+    Returns image points (v, n, 2) px, derivatives by the parameters (v, n, 2, p), and by the pose (v, n, 2,
+    6): a left increment exp(ω) R in rad first, then the translation in m.
     """
     model = LENSES[lens]
     vector = np.atleast_2d(vector)[:, None, :]
@@ -118,16 +123,21 @@ def project_with_jacobians(
     by_pose = np.empty((*ideal.shape, 6))
     by_point = by_pose[..., 3:]
     by_point[..., :2] = by_ideal * inverse_z[..., None, None]
-    by_point[..., 2] = -np.einsum("...ij,...j->...i", by_ideal, ideal) * inverse_z[..., None]
-    by_pose[..., :3] = -by_point @ skew(turned)
+    by_point[..., 2] = -(by_point[..., 0] * ideal[..., :1] + by_point[..., 1] * ideal[..., 1:])
+    # g · (ω × t) = ω · (t × g), for each row g of by_point and turned point t.
+    for axis, (left, right) in enumerate(((1, 2), (2, 0), (0, 1))):
+        by_pose[..., axis] = (
+            turned[..., left, None] * by_point[..., right] - turned[..., right, None] * by_point[..., left]
+        )
     return distorted * focal + vector[..., 2:4], by_parameters, by_pose
 
 
 def undistort(intrinsics: Intrinsics, image_points: Array, iterations: int = 30) -> Array:
     """Return ideal image-plane coordinates (..., 2) of pixels (..., 2): the inverse of the projection.
 
-    Newton's method on the lens's own Jacobian, which converges in the image corner where a fixed-point iteration
-    of five steps (OpenCV's default) is up to a pixel off. NaN where the lens does not reach the pixel.
+    Newton's method on the lens's own Jacobian, which converges in the image corner where a fixed-point
+    iteration of five steps (OpenCV's default) is up to a pixel off. NaN where the lens does not reach the
+    pixel.
     """
     model, vector = LENSES[intrinsics.lens], intrinsics.vector
     wanted = (np.asarray(image_points, dtype=np.float64) - vector[2:4]) / vector[:2]

@@ -1,8 +1,8 @@
 """What a target looks like: its pattern, its corners in metres, and the words that describe it.
 
-The chessboard's frame: origin at corner 0, x along the columns, y along the rows, z away from the camera when the
-board is upright and faces it. The square that lies diagonally outside corner 0 is dark; on a board with an odd and
-an even number of corners this fixes the order, whichever way up the board is held.
+The chessboard's frame: origin at corner 0, x along the columns, y along the rows, z away from the camera when
+the board is upright and faces it. The square that lies diagonally outside corner 0 is dark; on a board with
+an odd and an even number of corners this fixes the order, whichever way up the board is held.
 """
 
 import re
@@ -45,7 +45,7 @@ class Chessboard:
 
     @property
     def is_symmetric(self) -> bool:
-        """Whether the pattern looks the same turned by 180 degrees, so that the order of corners is a choice."""
+        """Whether the pattern looks the same turned by 180 degrees: the order of corners is a choice then."""
         return (self.columns + self.rows) % 2 == 0
 
     @property
@@ -55,7 +55,7 @@ class Chessboard:
 
 
 def parse_target(spec: str) -> Chessboard:
-    """Return the target of a description such as `chessboard:9x6:25mm` (inner corners; 1 m squares if no size).
+    """Return the target of words such as `chessboard:9x6:25mm` (inner corners; 1 m squares if no size).
 
     Raises TargetSpecInvalid when it does not follow the pattern or the board is smaller than 3x3.
     """
@@ -69,5 +69,7 @@ def parse_target(spec: str) -> Chessboard:
     columns, rows = int(match[1]), int(match[2])
     square_m = float(match[3]) / 1000 if match[3] else 1.0
     if min(columns, rows) < 3 or square_m <= 0:
-        raise TargetSpecInvalid("A chessboard needs at least 3x3 inner corners and squares larger than 0 mm.", spec=spec)
+        raise TargetSpecInvalid(
+            "A chessboard needs at least 3x3 inner corners and squares larger than 0 mm.", spec=spec
+        )
     return Chessboard(columns, rows, square_m)

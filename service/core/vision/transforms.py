@@ -84,7 +84,9 @@ def rotation_vector(R: Array) -> Array:
     diagonal = np.diagonal(R, axis1=-2, axis2=-1)
     # The four candidate quaternions (w, x, y, z); the one with the largest pivot is well conditioned.
     pivots = np.concatenate([trace[..., None], 2.0 * diagonal - trace[..., None]], axis=-1) + 1.0
-    d = np.stack([R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]], axis=-1)
+    d = np.stack(
+        [R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]], axis=-1
+    )
     s = R + np.swapaxes(R, -1, -2)
     rows = [
         [pivots[..., 0], d[..., 0], d[..., 1], d[..., 2]],

@@ -1,0 +1,166 @@
+"""Views in, intrinsics with their covariance out; never without saying whether the optimum is proven.
+
+The solve runs from two starts that know nothing of each other: the SKU's nominal (without one: a sweep of
+focal lengths) and blind, from the views alone. The better end is the result; it counts as converged only
+where the gradient says so and both ends are the same camera. Not here: judging the result
+(`service.core.quality`), detecting corners.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from service.core.errors import DegenerateViews, IntrinsicsInvalid
+from service.core.vision.camera import Intrinsics, parameter_names, project
+from service.core.vision.levenberg_marquardt import Fit
+from service.core.vision.multi_start import AGREEMENT_PX, Problem, largest_difference, solve_from_starts
+from service.core.vision.normal_equations import reduce
+from service.core.vision.transforms import Array, Pose, rotation_vector
+from service.core.vision.view_stack import View, stack_views
+
+__all__ = ["CalibrationResult", "StartReport", "View", "calibrate_intrinsics"]
+
+LARGEST_CONDITION = 1e13
+
+
+@dataclass(frozen=True)
+class StartReport:
+    """How the solve went from one start: `nominal`, `sweep` or `blind`."""
+
+    name: str
+    rms_px: float
+    iterations: int
+    converged: bool
+
+
+@dataclass(frozen=True)
+class CalibrationResult:
+    """A solved camera.
+
+    covariance: (p, p) in the order of parameter_names(lens), σ²(JᵀJ)⁻¹ with the fitted σ, zero where fixed.
+    poses: `T_cam_board` per view. residuals: detected − projected (n, 2) px per view.
+    sigma_px: √(Σe²/(2N − free unknowns)). rms_px: √(Σ|e|²/N). agreement_px: the largest difference over the
+    image between the ends of the starts, inf where one of them failed. converged: the optimum is proven and
+    the starts agree.
+    """
+
+    intrinsics: Intrinsics
+    covariance: Array
+    fixed: tuple[str, ...]
+    poses: tuple[Pose, ...]
+    residuals: tuple[Array, ...]
+    sigma_px: float
+    rms_px: float
+    starts: tuple[StartReport, ...]
+    agreement_px: float
+    converged: bool
+
+    @property
+    def sd(self) -> dict[str, float]:
+        """Standard deviation of each parameter by name; zero where fixed."""
+        deviations = np.sqrt(np.maximum(np.diagonal(self.covariance), 0.0))
+        return dict(zip(parameter_names(self.intrinsics.lens), map(float, deviations), strict=True))
+
+
+def calibrate_intrinsics(
+    views: Sequence[View],
+    image_size: tuple[int, int],
+    lens: str = "pinhole5",
+    nominal: Intrinsics | None = None,
+    fixed: Collection[str] = (),
+) -> CalibrationResult:
+    """Return the camera that explains the views best.
+
+    image_size: (width, height) px. fixed: names of parameters that are not estimated; they keep the nominal's
+    value, without a nominal zero for coefficients and the middle of the image for cx, cy.
+    Raises TooFewViews (fewer than three), DegenerateViews (they leave a parameter undetermined),
+    IntrinsicsInvalid (a nominal of another lens or image size, an unknown fixed name, fx or fy fixed without
+    a nominal).
+    """
+    check_request(image_size, lens, nominal, fixed)
+    names = parameter_names(lens)
+    free = np.array([i for i, name in enumerate(names) if name not in fixed], dtype=np.intp)
+    problem = Problem(lens, image_size, stack_views(views), free, nominal)
+    ends = solve_from_starts(problem)
+    solved = [fit for fit in ends.values() if fit is not None]
+    if not solved:
+        raise DegenerateViews(
+            "No camera of this lens model can see the views; check the target and the lens model."
+        )
+    best = min(solved, key=lambda fit: fit.equations.cost)
+    agreement = largest_difference(problem, solved) if len(solved) == len(ends) else float("inf")
+    return _result(problem, best, ends, tuple(name for name in names if name in fixed), agreement)
+
+
+def check_request(
+    image_size: tuple[int, int], lens: str, nominal: Intrinsics | None, fixed: Collection[str]
+) -> None:
+    """Raise IntrinsicsInvalid where a nominal or the fixed names do not fit the lens and the image."""
+    names = parameter_names(lens)
+    unknown = sorted(set(fixed) - set(names))
+    if unknown:
+        raise IntrinsicsInvalid(f"Cannot fix {', '.join(unknown)}; this lens has {', '.join(names)}.")
+    if nominal is None and {"fx", "fy"} & set(fixed):
+        raise IntrinsicsInvalid(
+            "Give nominal intrinsics to fix fx or fy at; without them they must be estimated."
+        )
+    if nominal is not None and (nominal.lens, tuple(nominal.image_size)) != (lens, tuple(image_size)):
+        raise IntrinsicsInvalid(
+            f"The nominal is a {nominal.lens} lens at {nominal.image_size[0]}x{nominal.image_size[1]} px, "
+            f"the views are {lens} at {image_size[0]}x{image_size[1]} px; give the nominal of this camera."
+        )
+
+
+def _result(
+    problem: Problem, best: Fit, ends: Mapping[str, Fit | None], fixed: tuple[str, ...], agreement_px: float
+) -> CalibrationResult:
+    """Return the public result of the best fit."""
+    stack, estimate = problem.stack, best.estimate
+    intrinsics = problem.intrinsics(estimate.vector)
+    unknowns = len(problem.free) + 6 * len(stack.counts)
+    variance = best.equations.cost / max(stack.measurements - unknowns, 1)
+    pixels = project(intrinsics, estimate.rotations, estimate.translations, stack.object_points)
+    errors = stack.image_points - pixels
+    return CalibrationResult(
+        intrinsics=intrinsics,
+        covariance=variance * _cofactor(problem, best),
+        fixed=fixed,
+        poses=tuple(
+            Pose(*pair)
+            for pair in zip(rotation_vector(estimate.rotations), estimate.translations, strict=True)
+        ),
+        residuals=tuple(error[:count] for error, count in zip(errors, stack.counts, strict=True)),
+        sigma_px=float(np.sqrt(variance)),
+        rms_px=_rms(problem, best),
+        starts=tuple(_report(problem, name, fit) for name, fit in ends.items()),
+        agreement_px=agreement_px,
+        converged=best.converged and agreement_px <= AGREEMENT_PX,
+    )
+
+
+def _report(problem: Problem, name: str, fit: Fit | None) -> StartReport:
+    """Return how the solve went from a start; its rms is inf where no solve was possible."""
+    if fit is None:
+        return StartReport(name, float("inf"), 0, converged=False)
+    return StartReport(name, _rms(problem, fit), fit.iterations, fit.converged)
+
+
+def _rms(problem: Problem, fit: Fit) -> float:
+    """Return √(Σ|e|²/N) px of a fit."""
+    return float(np.sqrt(fit.equations.cost / sum(problem.stack.counts)))
+
+
+def _cofactor(problem: Problem, fit: Fit) -> Array:
+    """Return (JᵀJ)⁻¹ of the parameters (p, p), zero where fixed, or raise DegenerateViews."""
+    cofactor = np.zeros((len(fit.estimate.vector),) * 2)
+    information = reduce(fit.equations).information.sum(axis=0)
+    scale = 1.0 / np.sqrt(np.diagonal(information))
+    scaled = information * np.outer(scale, scale)
+    if not (np.all(np.isfinite(scaled)) and np.linalg.cond(scaled) < LARGEST_CONDITION):
+        raise DegenerateViews(
+            "The views do not determine all parameters; add views with the target tilted in different "
+            "directions, near and far, all over the image, or fix the parameters that are not needed."
+        )
+    cofactor[np.ix_(problem.free, problem.free)] = np.linalg.inv(scaled) * np.outer(scale, scale)
+    return cofactor

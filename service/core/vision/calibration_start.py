@@ -1,0 +1,160 @@
+"""Where a solve starts: poses from assumed intrinsics, and intrinsics from nothing but the views.
+
+The blind start uses the radial alignment constraint (Tsai 1987; Scaramuzza, Martinelli, Siegwart 2006): with
+the centre assumed in the middle of the image, the direction of a corner from the centre depends neither on
+the focal length nor on the radial distortion, so a wide lens is no harder than a narrow one. Closed form,
+vectorised over views. Not here: the solve itself.
+"""
+
+import numpy as np
+
+from service.core.vision.camera import Intrinsics, parameter_names, undistort
+from service.core.vision.normal_equations import Estimate
+from service.core.vision.transforms import Array
+from service.core.vision.view_stack import ViewStack
+
+SWEEP_HFOV_DEG = (30.0, 45.0, 60.0, 80.0, 100.0, 120.0, 140.0)
+
+
+def nominal_start(nominal: Intrinsics, stack: ViewStack) -> Estimate:
+    """Return an estimate at given intrinsics; without distortion where the lens misses a corner."""
+    ideal = undistort(nominal, stack.image_points)
+    vector = nominal.vector
+    if not np.all(np.isfinite(ideal)):
+        vector = np.concatenate([vector[:4], np.zeros(len(vector) - 4)])
+        ideal = (stack.image_points - vector[2:4]) / vector[:2]
+    return Estimate(vector, *planar_poses(stack, ideal))
+
+
+def sweep_starts(lens: str, image_size: tuple[int, int], stack: ViewStack) -> list[Estimate]:
+    """Return estimates of a few focal lengths without distortion, narrow to wide."""
+    starts = []
+    for degrees in SWEEP_HFOV_DEG:
+        focal = image_size[0] / 2.0 / float(np.tan(np.radians(degrees / 2.0)))
+        vector = _plain_vector(lens, focal, image_size)
+        starts.append(Estimate(vector, *planar_poses(stack, (stack.image_points - vector[2:4]) / focal)))
+    return starts
+
+
+def blind_start(lens: str, image_size: tuple[int, int], stack: ViewStack) -> Estimate | None:
+    """Return an estimate from the views alone, without distortion; None where they give no focal length.
+
+    The poses are those of the radial alignment, in which distortion has no part.
+    """
+    vector = _plain_vector(lens, 1.0, image_size)
+    from_centre = stack.image_points - vector[2:4]
+    in_plane = _radial_alignment(stack, from_centre)
+    tilted = np.stack([_complete(in_plane[0], sign) for sign in (1.0, -1.0)])
+    solved = [_depths_and_focal(stack, from_centre, R, in_plane[1], joint=False) for R in tilted]
+    better = np.where(solved[0][2] <= solved[1][2], 0, 1)
+    rotations = tilted[better, np.arange(len(better))]
+    focal, depths, _ = _depths_and_focal(stack, from_centre, rotations, in_plane[1], joint=True)
+    if not (np.isfinite(focal).all() and focal[0] > 0 and np.all(depths > 0)):
+        return None
+    vector[:2] = focal[0]
+    return Estimate(vector, rotations, np.concatenate([in_plane[1], depths[:, None]], axis=-1))
+
+
+def planar_poses(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
+    """Return rotations (v, 3, 3), translations (v, 3) m of ideal coordinates (v, n, 2), by homographies."""
+    centre, scale, board = _normalised_board(stack)
+    one, zero = np.ones_like(board[..., :1]), np.zeros_like(board)
+    plane = np.concatenate([board, one], axis=-1)
+    nil = np.concatenate([zero, 0.0 * one], axis=-1)
+    rows_x = np.concatenate([plane, nil, -ideal[..., :1] * plane], axis=-1)
+    rows_y = np.concatenate([nil, plane, -ideal[..., 1:] * plane], axis=-1)
+    rows = np.concatenate([rows_x, rows_y], axis=1) * np.concatenate([stack.weights] * 2, axis=1)[..., None]
+    H = _null_vectors(rows).reshape(-1, 3, 3)
+    H = H * np.where(H[:, 2:, 2:] < 0, -1.0, 1.0)
+    length = (np.linalg.norm(H[..., 0], axis=-1) + np.linalg.norm(H[..., 1], axis=-1)) / 2.0
+    H = H / length[:, None, None]
+    H[..., 2] = H[..., 2] * scale[:, None]
+    columns = np.stack([H[..., 0], H[..., 1], np.cross(H[..., 0], H[..., 1])], axis=-1)
+    U, _, Vt = np.linalg.svd(columns)
+    rotations = U @ Vt
+    rotations = rotations * np.sign(np.linalg.det(rotations))[:, None, None]
+    return rotations, H[..., 2] - np.einsum("vij,vj->vi", rotations[..., :2], centre)
+
+
+def _plain_vector(lens: str, focal: float, image_size: tuple[int, int]) -> Array:
+    """Return parameters with the centre in the middle of the image and no distortion."""
+    vector = np.zeros(len(parameter_names(lens)))
+    vector[:4] = focal, focal, (image_size[0] - 1) / 2.0, (image_size[1] - 1) / 2.0
+    return vector
+
+
+def _normalised_board(stack: ViewStack) -> tuple[Array, Array, Array]:
+    """Return the boards' centres (v, 2) m, sizes (v,) m, and corners (v, n, 2) in those terms."""
+    plane = stack.object_points[..., :2]
+    centre = plane.mean(axis=1)
+    scale = np.sqrt(np.mean(np.sum((plane - centre[:, None]) ** 2, axis=-1), axis=1))
+    return centre, scale, (plane - centre[:, None]) / scale[:, None, None]
+
+
+def _null_vectors(rows: Array) -> Array:
+    """Return the unit vectors (v, d) that systems (v, m, d) map closest to zero."""
+    _, vectors = np.linalg.eigh(np.swapaxes(rows, -1, -2) @ rows)
+    return np.ascontiguousarray(vectors[..., 0])
+
+
+def _radial_alignment(stack: ViewStack, from_centre: Array) -> tuple[Array, Array]:
+    """Return the upper left 2x2 of the rotations (v, 2, 2) and the translations across the axis (v, 2), m.
+
+    A corner and its image lie on one ray from the centre: v (r11 X + r12 Y + tx) = u (r21 X + r22 Y + ty).
+    """
+    centre, size, board = _normalised_board(stack)
+    plane = np.concatenate([board, np.ones_like(board[..., :1])], axis=-1)
+    unit = from_centre / np.abs(from_centre).max()
+    rows = np.concatenate([unit[..., 1:] * plane, -unit[..., :1] * plane], axis=-1)
+    M = _null_vectors(rows * stack.weights[..., None]).reshape(-1, 2, 3)
+    # The larger singular value of an upper left block of a plane's rotation is one: an unshortened direction
+    # exists.
+    M = M / np.linalg.norm(M[..., :2], ord=2, axis=(-2, -1))[:, None, None]
+    along = np.einsum("vij,vnj,vni->v", M, plane, unit * stack.weights[..., None])
+    M = M * np.where(along < 0, -1.0, 1.0)[:, None, None]
+    across = M[..., 2] * size[:, None] - np.einsum("vij,vj->vi", M[..., :2], centre)
+    return M[..., :2], across
+
+
+def _complete(block: Array, sign: float) -> Array:
+    """Return rotations (v, 3, 3) with a given upper left 2x2; the sign chooses between the two tilts."""
+    lower = np.sqrt(np.maximum(1.0 - np.sum(block * block, axis=1), 0.0))
+    product = -np.sum(block[..., 0] * block[..., 1], axis=1)
+    lower[:, 1] *= np.where(product < 0, -1.0, 1.0)
+    first_two = np.concatenate([block, sign * lower[:, None, :]], axis=1)
+    third = np.cross(first_two[..., 0], first_two[..., 1])
+    U, _, Vt = np.linalg.svd(np.concatenate([first_two, third[..., None]], axis=-1))
+    rotations: Array = U @ Vt
+    return rotations
+
+
+def _depths_and_focal(
+    stack: ViewStack, from_centre: Array, rotations: Array, across: Array, joint: bool
+) -> tuple[Array, Array, Array]:
+    """Return the focal length of all views (1,) or of each (v,) px, depths (v,) m, squared errors (v,).
+
+    With ρ a corner's distance from the centre and d its distance from the axis, (a + b ρ²) d − ρ tz = ρ q,
+    where q is the corner's own depth against the board's origin; linear in a = f, b and the depths.
+    """
+    camera = stack.object_points @ np.swapaxes(rotations, -1, -2)
+    unit = 1.0 / np.abs(from_centre).max()
+    rho = np.linalg.norm(from_centre, axis=-1) * unit
+    d = np.linalg.norm(camera[..., :2] + across[:, None], axis=-1)
+    w = stack.weights
+    shared = np.stack([d, d * rho**2], axis=-1) * w[..., None]
+    own, right = (-rho * w)[..., None], (rho * camera[..., 2]) * w
+    # The depth of each view is eliminated, as the poses are in the solve.
+    weight = np.sum(own * own, axis=1)
+    shared_free = shared - own * (np.sum(own * shared, axis=1) / weight)[:, None]
+    right_free = right - own[..., 0] * (np.sum(own[..., 0] * right, axis=1) / weight[:, 0])[:, None]
+    A = np.swapaxes(shared_free, -1, -2) @ shared_free
+    b = np.einsum("vnf,vn->vf", shared_free, right_free)
+    if joint:
+        A, b = A.sum(axis=0, keepdims=True), b.sum(axis=0, keepdims=True)
+    solution = np.linalg.solve(
+        A + 1e-15 * np.trace(A, axis1=-2, axis2=-1)[:, None, None] * np.eye(2), b[..., None]
+    )
+    error = right_free - (shared_free @ solution)[..., 0]
+    depths = np.sum(own[..., 0] * (right - (shared @ solution)[..., 0]), axis=1) / weight[:, 0]
+    penalty = np.where((solution[:, 0, 0] > 0) & (depths > 0), 1.0, np.inf)
+    return solution[:, 0, 0] / unit, depths, np.sum(error * error, axis=1) * penalty

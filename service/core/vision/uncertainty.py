@@ -1,0 +1,122 @@
+"""How far pixels may be off: mapping error and mapping difference, compensated for a rotation of the camera.
+
+Two intrinsics that differ by a rotation of the camera frame are the same camera seen from a turned frame, so
+the best rotation is taken out first. K(a, b) = min over R of (1/N) Σ |x_i − p_b(R p_a⁻¹(x_i))|²; with b = a +
+δ this is δᵀHδ, and for an estimate of covariance Σ its expectation is tr(HΣ) (Hagemann, Knorr, Janssen,
+Stiller, IJCV 2022). Not here: limits on these values (`service.core.quality`).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from service.core.vision.camera import LENSES, Intrinsics, project_with_jacobians, undistort
+from service.core.vision.transforms import Array, rotation_matrix
+
+GRID = (12, 8)
+ROTATION_STEPS = 8
+
+
+@dataclass(frozen=True)
+class Region:
+    """A rectangle of the image, px, both edges included."""
+
+    left_px: float
+    top_px: float
+    right_px: float
+    bottom_px: float
+
+    def grid(self, columns: int, rows: int) -> Array:
+        """Return evenly spaced pixels (rows * columns, 2), row by row, corners of the region included."""
+        u, v = (
+            np.linspace(self.left_px, self.right_px, columns),
+            np.linspace(self.top_px, self.bottom_px, rows),
+        )
+        return np.stack([np.tile(u, rows), np.repeat(v, columns)], axis=-1)
+
+
+@dataclass(frozen=True)
+class MappingError:
+    """Expected error of a mapping, px: root of the mean and of the worst variance over a grid of pixels.
+
+    Both are inf where the lens does not reach a pixel of the grid, for nothing can be promised there.
+    """
+
+    mean_px: float
+    worst_px: float
+
+
+def whole_image(image_size: tuple[int, int]) -> Region:
+    """Return the region of an image (width, height), from its first pixel's centre to its last's."""
+    return Region(0.0, 0.0, image_size[0] - 1.0, image_size[1] - 1.0)
+
+
+def mapping_error(intrinsics: Intrinsics, covariance: Array, region: Region | Array) -> MappingError:
+    """Return the expected mapping error, given a covariance (p, p), over a region or pixels (m, 2)."""
+    grid = region.grid(*GRID) if isinstance(region, Region) else region
+    J = compensated_jacobian(intrinsics, grid)
+    variances = np.einsum("mif,fg,mig->m", J, covariance, J)
+    if len(J) == 0 or not np.all(np.isfinite(variances)):
+        return MappingError(float("inf"), float("inf"))
+    return MappingError(float(np.sqrt(variances.mean())), float(np.sqrt(variances.max())))
+
+
+def parameter_metric(intrinsics: Intrinsics, grid: Region | Array) -> Array:
+    """Return H (p, p): δᵀHδ is the mean squared mapping difference, px², of a small change δ.
+
+    grid: a region or pixels (m, 2). Pixels that the lens does not reach are left out.
+    """
+    pixels = grid.grid(*GRID) if isinstance(grid, Region) else grid
+    J = compensated_jacobian(intrinsics, pixels)
+    J = J[np.all(np.isfinite(J), axis=(1, 2))].reshape(-1, J.shape[-1])
+    return 2.0 * (J.T @ J) / max(len(J), 1)
+
+
+def compensated_jacobian(intrinsics: Intrinsics, grid: Array) -> Array:
+    """Return how pixels (m, 2) of fixed directions move with the parameters: (m, 2, p).
+
+    The best rotation of all pixels together is taken out. NaN for pixels that the lens does not reach.
+    """
+    ideal = undistort(intrinsics, grid)
+    reached = np.all(np.isfinite(ideal), axis=-1)
+    rays = np.concatenate([ideal[reached], np.ones((int(reached.sum()), 1))], axis=-1)
+    _, by_parameters, by_pose = project_with_jacobians(
+        intrinsics.lens, intrinsics.vector, np.eye(3)[None], np.zeros((1, 3)), rays
+    )
+    p = by_parameters.shape[-1]
+    A, B = by_parameters.reshape(-1, p), by_pose[..., :3].reshape(-1, 3)
+    turn, *_ = np.linalg.lstsq(B, A, rcond=None)
+    out = np.full((len(grid), 2, p), np.nan)
+    out[reached] = (A - B @ turn).reshape(-1, 2, p)
+    return out
+
+
+def mapping_difference(a: Intrinsics, b: Intrinsics, grid: Region | Array) -> Array:
+    """Return the distances (m,) px between the pixels of a and where b sees them after the best rotation.
+
+    grid: a region or pixels (m, 2) of a. NaN for pixels that a lens does not reach.
+    """
+    pixels = grid.grid(*GRID) if isinstance(grid, Region) else grid
+    ideal = undistort(a, pixels)
+    limit = LENSES[b.lens].monotone_radius(b.vector[4:])
+    reached = np.all(np.isfinite(ideal), axis=-1)
+    reached[reached] = np.linalg.norm(ideal[reached], axis=-1) < limit
+    out = np.full(len(pixels), np.nan)
+    if np.count_nonzero(reached) >= 2:
+        rays = np.concatenate([ideal[reached], np.ones((int(reached.sum()), 1))], axis=-1)
+        out[reached] = np.linalg.norm(_best_turned(b, rays, pixels[reached]), axis=-1)
+    return out
+
+
+def _best_turned(b: Intrinsics, rays: Array, pixels: Array) -> Array:
+    """Return pixels (m, 2) minus projections of rays (m, 3) by b, best turned (Gauss–Newton)."""
+    R = np.eye(3)
+    difference = np.empty_like(pixels)
+    for _ in range(ROTATION_STEPS):
+        projected, _, by_pose = project_with_jacobians(b.lens, b.vector, R[None], np.zeros((1, 3)), rays)
+        difference = pixels - projected[0]
+        turn, *_ = np.linalg.lstsq(by_pose[..., :3].reshape(-1, 3), difference.reshape(-1), rcond=None)
+        if np.abs(turn).max() < 1e-12:
+            break
+        R = rotation_matrix(turn) @ R
+    return difference
