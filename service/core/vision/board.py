@@ -1,0 +1,93 @@
+"""Is this grid the declared board, a larger one, or a part of it? In which order do its corners go?
+
+Corner 0 has a dark square diagonally outside it, x runs along the columns, and the order is never mirrored.
+Where a symmetric board leaves a choice, x points as far to the right in the image as it can.
+Not here: what the image says about the squares (`parity`, `sharpness`).
+"""
+
+import numpy as np
+
+from service.core.errors import TargetNotVisible, WrongTarget
+from service.core.vision.corner_grid import CornerGrid, crop
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Array
+
+SHARE_OF_A_LINE = 0.5  # of an outermost row or column that must be there for it to count as one
+SHARE_OF_A_BOARD = 0.35  # of the corners that must be seen before a part of a board is spoken of
+
+
+def whole_lines(grid: CornerGrid) -> CornerGrid:
+    """Return the grid without outer rows and columns of which only chance corners are there."""
+    while grid.points.size:
+        known = grid.known
+        shares = np.array([known[0].mean(), known[-1].mean(), known[:, 0].mean(), known[:, -1].mean()])
+        side = int(np.argmin(shares))
+        if shares[side] >= SHARE_OF_A_LINE:
+            return grid
+        rows, columns = known.shape
+        grid = crop(grid, side == 0, side == 2, rows - (side == 1), columns - (side == 3))
+    return grid
+
+
+def is_larger(grid: CornerGrid, target: Chessboard) -> bool:
+    """Whether a grid of whole lines has more rows or columns than the target can show."""
+    rows, columns = grid.points.shape[:2]
+    few, many = sorted((target.columns, target.rows))
+    return bool(max(rows, columns) > many or min(rows, columns) > few)
+
+
+def is_whole(grid: CornerGrid, target: Chessboard) -> bool:
+    """Whether a grid of whole lines is the target, each corner of it."""
+    shape = tuple(sorted(grid.points.shape[:2]))
+    return shape == tuple(sorted((target.columns, target.rows))) and bool(grid.known.all())
+
+
+def order_corners(grid: CornerGrid, target: Chessboard) -> Array:
+    """Return the corners (rows * columns, 2) px of a whole board in the target's order."""
+    turned = [np.rot90(grid.points, turn) for turn in range(4)]
+    dark = [_cell_is_dark(grid, turn) for turn in range(4)]
+    fitting = [turn for turn in range(4) if turned[turn].shape[:2] == (target.rows, target.columns)]
+    best = max(fitting, key=lambda turn: (dark[turn], _rightward(turned[turn])))
+    return np.ascontiguousarray(turned[best].reshape(-1, 2))
+
+
+def _cell_is_dark(grid: CornerGrid, turn: int) -> bool:
+    """Whether the first cell is dark (as is the one diagonally outside) after quarter turns by `np.rot90`."""
+    rows, columns = grid.points.shape[:2]
+    row, column = [(0, 0), (0, columns - 2), (rows - 2, columns - 2), (rows - 2, 0)][turn]
+    return bool((row + column + grid.phase) % 2 == 0)
+
+
+def _rightward(points: Array) -> float:
+    """The cosine of the angle between the x axis (of the first to the last column) and the image's."""
+    axis = (points[:, -1] - points[:, 0]).mean(axis=0)
+    return float(axis[0] / max(np.hypot(*axis), 1e-9))
+
+
+def refuse_larger(grid: CornerGrid, target: Chessboard) -> WrongTarget:
+    """The error that names the board that is there instead of the declared one."""
+    rows, columns = sorted(grid.points.shape[:2], reverse=target.rows > target.columns)
+    return WrongTarget(
+        f"The board in the image has {columns}x{rows} inner corners, but {target.columns}x{target.rows} was "
+        f"declared; declare chessboard:{columns}x{rows} or show the declared board.",
+        found_columns=columns,
+        found_rows=rows,
+        declared_columns=target.columns,
+        declared_rows=target.rows,
+    )
+
+
+def refuse_partial(corners_seen: int, target: Chessboard) -> TargetNotVisible:
+    """The error that says how much of the board was seen and what to do."""
+    needed = target.columns * target.rows
+    name = f"{target.columns}x{target.rows} chessboard"
+    if corners_seen < max(8, SHARE_OF_A_BOARD * needed):
+        detail = (
+            f"No {name} was found; bring the whole board into the picture, lit evenly, sharp and near enough."
+        )
+    else:
+        detail = (
+            f"Only {corners_seen} of {needed} corners of the {name} were found; bring the whole board into "
+            "the picture, uncovered and without reflections, and check that it is the declared one."
+        )
+    return TargetNotVisible(detail, corners_seen=corners_seen, corners_needed=needed)

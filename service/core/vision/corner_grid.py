@@ -1,0 +1,166 @@
+"""Corners to grids: who is whose neighbour, and a pair of integers for each.
+
+Two corners are linked along an edge when each is the other's nearest in that direction and the colours beside
+the edge agree. Numbering then walks the links and needs no geometry, so distortion does not matter.
+Not here: missing corners (`grid_growth`) and which grid is the declared board (`board`).
+"""
+
+from collections import deque
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from service.core.vision.corner_candidates import Corners
+from service.core.vision.transforms import Array
+
+NEIGHBOURS = 24
+SIDEWAYS = 0.36  # tangent of the largest angle between an edge's direction and the neighbour
+ALIGNED = 0.88  # cosine of the largest angle between the two ends of an edge
+LIKE_CONTRAST = 0.3  # least ratio of the contrasts of two neighbours
+LIKE_LENGTH = 0.4  # least ratio of the two edges that meet head on in a corner
+LEAST_CORNERS = 6
+
+
+@dataclass(frozen=True)
+class CornerGrid:
+    """Corners by row and column: points (rows, columns, 2) px, NaN where there is none.
+
+    Rows and columns run so that x × y points away from the camera (never mirrored). The cell whose corners
+    are [row, column] to [row + 1, column + 1] is dark when (row + column + phase) is even.
+    """
+
+    points: Array
+    phase: int
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Where there is a corner (rows, columns)."""
+        return ~np.isnan(self.points[..., 0])
+
+
+def link_corners(corners: Corners) -> NDArray[np.int64]:
+    """Return the neighbour (n, 4) of each corner in each slot's direction, -1 where there is none.
+
+    Links are mutual: link[q].index(p) exists whenever link[p] holds q.
+    """
+    n = len(corners)
+    if n < 2:
+        return np.full((n, 4), -1)
+    nearest = cKDTree(corners.points).query(corners.points, k=min(NEIGHBOURS + 1, n))
+    near = np.asarray(nearest[1], dtype=np.int64)[:, 1:]
+    vector = corners.points[near] - corners.points[:, None]
+    direction = np.stack([np.cos(corners.slots), np.sin(corners.slots)], axis=-1)
+    link = np.full((n, 4), -1)
+    back = np.full((n, 4), -1)
+    for slot in range(4):
+        link[:, slot], back[:, slot] = _nearest_along(vector, near, direction, slot)
+    rows, slots = np.nonzero(link >= 0)
+    ends = link[rows, slots]
+    weak, strong = np.sort(corners.contrast[np.stack([rows, ends])], axis=0)
+    good = (link[ends, back[rows, slots]] == rows) & (weak > LIKE_CONTRAST * strong)
+    link[rows[~good], slots[~good]] = -1
+    return _without_misfits(corners, link, back)
+
+
+def _without_misfits(corners: Corners, link: NDArray[np.int64], back: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Cut the longer of two edges that meet head on when they are too unlike to be sides of squares."""
+    vector = np.where(link[..., None] >= 0, corners.points[link] - corners.points[:, None], np.nan)
+    length = np.linalg.norm(vector, axis=-1)
+    opposite = np.roll(length, 2, axis=1)
+    rows, slots = np.nonzero(opposite < LIKE_LENGTH * length)
+    pruned = link.copy()
+    pruned[link[rows, slots], back[rows, slots]] = -1
+    pruned[rows, slots] = -1
+    return pruned
+
+
+def _nearest_along(
+    vector: Array, near: NDArray[np.int64], direction: Array, slot: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the nearest corner (n,) along a slot, and the slot (n,) by which it looks back; -1 for none."""
+    own = direction[:, None, slot]
+    along = np.sum(vector * own, axis=-1)
+    sideways = np.abs(vector[..., 0] * own[..., 1] - vector[..., 1] * own[..., 0])
+    # Across an edge the colours change places, so the neighbour looks back by a slot of the other line.
+    other = np.array([1, 3]) if slot % 2 == 0 else np.array([0, 2])
+    facing = -np.einsum("nkse,nke->nks", direction[near][:, :, other], np.broadcast_to(own, vector.shape))
+    which = np.argmax(facing, axis=-1)
+    best = np.take_along_axis(facing, which[..., None], axis=-1)[..., 0]
+    fits = (along > 0) & (sideways < SIDEWAYS * along) & (best > ALIGNED)
+    cost = np.where(fits, along + 2.0 * sideways, np.inf)
+    choice = np.argmin(cost, axis=1)
+    rows = np.arange(len(choice))
+    found = np.isfinite(cost[rows, choice])
+    return np.where(found, near[rows, choice], -1), np.where(found, other[which[rows, choice]], -1)
+
+
+def number_corners(corners: Corners, link: NDArray[np.int64]) -> list[CornerGrid]:
+    """Return the grids of linked corners, the one with the most corners first."""
+    neighbours: list[list[int]] = link.tolist()
+    seen: set[int] = set()
+    grids = []
+    for seed in range(len(corners)):
+        if seed in seen:
+            continue
+        places = _walk(neighbours, seed)
+        seen.update(places)
+        if len(places) >= LEAST_CORNERS:
+            grids.append(_as_grid(corners, places))
+    return sorted(grids, key=lambda grid: -int(grid.known.sum()))
+
+
+def _walk(neighbours: list[list[int]], seed: int) -> dict[int, tuple[int, int]]:
+    """Number all corners that are linked to a seed: (column, row) by corner, breadth first."""
+    turn = {seed: 0}
+    places = {seed: (0, 0)}
+    queue = deque([seed])
+    while queue:
+        corner = queue.popleft()
+        column, row = places[corner]
+        for way, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+            neighbour = neighbours[corner][(way + turn[corner]) % 4]
+            if neighbour < 0 or neighbour in places:
+                continue
+            back = neighbours[neighbour].index(corner)
+            turn[neighbour] = (back - way - 2) % 4
+            places[neighbour] = (column + dx, row + dy)
+            queue.append(neighbour)
+    return places
+
+
+def _as_grid(corners: Corners, places: dict[int, tuple[int, int]]) -> CornerGrid:
+    """Lay numbered corners out as an array; the first to claim a place keeps it."""
+    index = np.array(list(places))
+    place = np.array(list(places.values()))
+    low = place.min(axis=0)
+    columns, rows = place.max(axis=0) - low + 1
+    points = np.full((rows, columns, 2), np.nan)
+    # Written backwards, so that the corner that was reached first is written last.
+    points[place[::-1, 1] - low[1], place[::-1, 0] - low[0]] = corners.points[index[::-1]]
+    return CornerGrid(points, int(low.sum()) % 2)
+
+
+def keep_squares(grid: CornerGrid) -> CornerGrid:
+    """Return the grid without the corners that belong to no square of four, and without its empty margins."""
+    known = grid.known
+    square = known[:-1, :-1] & known[1:, :-1] & known[:-1, 1:] & known[1:, 1:]
+    kept = np.zeros_like(known)
+    for row in (slice(None, -1), slice(1, None)):
+        for column in (slice(None, -1), slice(1, None)):
+            kept[row, column] |= square
+    return trim(replace(grid, points=np.where(kept[..., None], grid.points, np.nan)))
+
+
+def trim(grid: CornerGrid) -> CornerGrid:
+    """Return the grid without empty rows and columns at its sides."""
+    rows, columns = (np.flatnonzero(grid.known.any(axis=axis)) for axis in (1, 0))
+    if not rows.size:
+        return CornerGrid(np.zeros((0, 0, 2)), 0)
+    return crop(grid, rows[0], columns[0], rows[-1] + 1, columns[-1] + 1)
+
+
+def crop(grid: CornerGrid, top: int, left: int, bottom: int, right: int) -> CornerGrid:
+    """Return rows top to bottom and columns left to right, the ends excluded."""
+    return CornerGrid(grid.points[top:bottom, left:right], (grid.phase + int(top) + int(left)) % 2)

@@ -1,0 +1,141 @@
+"""A grid of corners made complete: each place is predicted from its neighbours and proven in the full image.
+
+What linking missed (a reflection, a weak corner) is found again here, and so is every further row or column,
+which tells how large the board really is. What linking caught by chance is thrown out by the same proof.
+Not here: whether the grid is the declared board (`board`).
+"""
+
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.corner_candidates import inspect_rings
+from service.core.vision.corner_grid import CornerGrid, keep_squares, trim
+from service.core.vision.saddle import refine_saddles
+from service.core.vision.sampling import FloatImage
+from service.core.vision.transforms import Array
+
+FARTHEST = 0.35  # of a square, from the predicted to the proven corner
+LARGEST_ANGLE_SINE = 0.5  # between an edge of the corner and the side of its square
+
+
+@dataclass(frozen=True)
+class Steps:
+    """The sides of the squares at each place (rows, columns, 2) px: to the next column, to the next row."""
+
+    across: Array
+    down: Array
+
+    @property
+    def square_px(self) -> Array:
+        """The smaller height of the parallelogram at each place (rows, columns), px."""
+        area = np.abs(self.across[..., 0] * self.down[..., 1] - self.across[..., 1] * self.down[..., 0])
+        longer = np.maximum(np.linalg.norm(self.across, axis=-1), np.linalg.norm(self.down, axis=-1))
+        height: Array = area / np.maximum(longer, 1e-9)
+        return height
+
+
+def complete_grid(blurred: FloatImage, grid: CornerGrid, rounds: int) -> CornerGrid:
+    """Return the grid with proven corners only, filled and grown by up to `rounds` lines on each side."""
+    grid = keep_squares(grid)
+    if not grid.points.size:
+        return grid
+    grid = keep_squares(_prove(blurred, grid, grid.points))
+    for _ in range(rounds):
+        if not grid.points.size:
+            break
+        padded = replace(grid, points=np.pad(grid.points, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan))
+        grown = _prove(blurred, padded, np.where(padded.known[..., None], np.nan, predict(padded.points)))
+        if grown.known.sum() == grid.known.sum():
+            break
+        grid = trim(grown)
+    return keep_squares(grid)
+
+
+def predict(points: Array) -> Array:
+    """Return where corners (rows, columns, 2) px should be by their neighbours, NaN if unknown."""
+    guesses = []
+    for along in (0, 1):
+        before, after = _shifted(points, along, 1), _shifted(points, along, -1)
+        guesses.append(0.5 * (before + after))
+        for sign in (1, -1):
+            one, two, three = (_shifted(points, along, sign * k) for k in (1, 2, 3))
+            bent = 3.0 * (one - two) + three
+            guesses.append(np.where(np.isnan(bent), 2.0 * one - two, bent))
+    stack = np.stack(guesses)
+    count = np.sum(~np.isnan(stack), axis=0)
+    total = np.nansum(stack, axis=0)
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+
+
+def measure_steps(points: Array) -> Steps:
+    """Return the sides of the squares near each place of (rows, columns, 2) px corners."""
+    across, down = np.full(points.shape, np.nan), np.full(points.shape, np.nan)
+    across[:, :-1] = points[:, 1:] - points[:, :-1]
+    down[:-1] = points[1:] - points[:-1]
+    return Steps(_local_mean(across, (3, 2), (1, 1)), _local_mean(down, (2, 3), (1, 1)))
+
+
+def _local_mean(field: Array, first: tuple[int, int], anchor: tuple[int, int]) -> Array:
+    """Mean of the known values around each place; wider and wider where there are none."""
+    known = ~np.isnan(field[..., 0])
+    filled = np.where(known[..., None], field, 0.0)
+    weight = known.astype(np.float64)
+    result = np.full(field.shape, np.nan)
+    for kernel, at in ((first, anchor), ((5, 5), (2, 2)), ((9, 9), (4, 4))):
+        size, spot = (kernel[1], kernel[0]), (at[1], at[0])
+        sums = [_box_sum(plane, size, spot) for plane in (filled[..., 0], filled[..., 1], weight)]
+        total, count = np.stack(sums[:2], axis=-1), sums[2][..., None]
+        result = np.where(np.isnan(result) & (count > 0.5), total / np.maximum(count, 1.0), result)
+    return result
+
+
+def _box_sum(plane: Array, size: tuple[int, int], anchor: tuple[int, int]) -> Array:
+    plane = np.ascontiguousarray(plane)
+    total = cv2.boxFilter(plane, -1, size, anchor=anchor, normalize=False, borderType=cv2.BORDER_CONSTANT)
+    return np.asarray(total, dtype=np.float64)
+
+
+def _shifted(points: Array, axis: int, places: int) -> Array:
+    """Return the array whose value at i is that of i - places along an axis; NaN from outside."""
+    result = np.full(points.shape, np.nan)
+    if abs(places) >= points.shape[axis]:
+        return result
+    source, target = [slice(None)] * 3, [slice(None)] * 3
+    source[axis] = slice(None, -places) if places > 0 else slice(-places, None)
+    target[axis] = slice(places, None) if places > 0 else slice(None, places)
+    result[tuple(target)] = points[tuple(source)]
+    return result
+
+
+def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array) -> CornerGrid:
+    """Return the grid with the guessed corners that the image confirms; one that fails is unknown."""
+    steps = measure_steps(grid.points)
+    row, column = np.nonzero(~np.isnan(guesses[..., 0]) & ~np.isnan(steps.square_px))
+    points = np.where(np.isnan(guesses), grid.points, np.nan)
+    square = steps.square_px[row, column]
+    near, proven = refine_saddles(
+        blurred, guesses[row, column], np.clip(np.rint(0.3 * square), 2, 7).astype(np.int64)
+    )
+    proven &= np.linalg.norm(near - guesses[row, column], axis=1) < FARTHEST * square
+    passed, corners = inspect_rings(blurred, near, np.clip(0.42 * square, 2.2, 10.0))
+    dark = (row + column + grid.phase)[passed] % 2 == 0
+    along = np.stack([corners.slots[:, 0], corners.slots[:, 1]], axis=-1)
+    across_angle, down_angle = (
+        np.where(dark, along[:, 0], along[:, 1]),
+        np.where(dark, along[:, 1], along[:, 0]),
+    )
+    passed[passed] = (_sine(across_angle, steps.across[row, column][passed]) < LARGEST_ANGLE_SINE) & (
+        _sine(down_angle, steps.down[row, column][passed]) < LARGEST_ANGLE_SINE
+    )
+    good = proven & passed
+    points[row[good], column[good]] = near[good]
+    return replace(grid, points=points)
+
+
+def _sine(angle: Array, vector: Array) -> NDArray[np.float64]:
+    """Return |sin| of the angles (n,) between lines and vectors (n, 2)."""
+    cross = np.abs(np.cos(angle) * vector[:, 1] - np.sin(angle) * vector[:, 0])
+    return np.asarray(cross / np.maximum(np.linalg.norm(vector, axis=1), 1e-9))
