@@ -46,8 +46,8 @@ def check_at_head(database: Database) -> None:
     found = revision_of(database)
     if found != wanted:
         raise DatabaseOutdated(
-            f"The database is at revision {found}, this service needs {wanted}. Run `dmscal migrate`, or install "
-            "the service's version that belongs to the database.",
+            f"The database is at revision {found}, this service needs {wanted}. Run `dmscal migrate`, or "
+            "install the service's version that belongs to the database.",
             found=found,
             needed=wanted,
         )
