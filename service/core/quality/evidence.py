@@ -1,0 +1,77 @@
+"""What the gates look at: the detections of a calibration, what was refused, and what the SKU expects.
+
+Not here: how any of it is judged (gates_*.py, verdict.py).
+"""
+
+from dataclasses import dataclass
+
+from service.core.quality.limits import Limits
+from service.core.vision.calibration import CalibrationResult
+from service.core.vision.camera import Intrinsics
+from service.core.vision.detection import Detection
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Array, Pose
+from service.core.vision.uncertainty import Region
+
+
+@dataclass(frozen=True)
+class NamedDetection:
+    """A detection with the name and the content hash (hex; empty where unknown) of its image."""
+
+    name: str
+    detection: Detection
+    sha256: str = ""
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """An image that gave no view: its name, the code of the reason (as of the error class) and what to do."""
+
+    name: str
+    code: str
+    detail: str
+
+
+@dataclass(frozen=True)
+class Expectation:
+    """What a SKU says about the camera: its nominal intrinsics, limits, zones and prescribed poses.
+
+    Zones are by default those of `coverage.py`, limits those of the image size. pose_of_view: for each
+    detection in the order given, the index of the prescribed pose that it answers, or None; without it views
+    are matched to their nearest poses.
+    """
+
+    nominal: Intrinsics
+    limits: Limits | None = None
+    working_zone: Region | None = None
+    valid_region: Region | None = None
+    poses: tuple[Pose, ...] | None = None
+    pose_of_view: tuple[int | None, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """All that the gates need: the views used, the images refused, the solve, the limits and the zones.
+
+    working_grid, valid_grid: (m, 2) px, points of the zones over which mapping errors are taken.
+    """
+
+    target: Chessboard
+    views: tuple[NamedDetection, ...]
+    refused: tuple[Refusal, ...]
+    result: CalibrationResult
+    limits: Limits
+    expectation: Expectation | None
+    pose_of_view: tuple[int | None, ...] | None
+    working_grid: Array
+    valid_grid: Array
+
+    @property
+    def image_size(self) -> tuple[int, int]:
+        """Width and height, px."""
+        return self.result.intrinsics.image_size
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the views, in the order of the result's poses and residuals."""
+        return tuple(view.name for view in self.views)

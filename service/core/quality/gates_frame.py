@@ -1,0 +1,124 @@
+"""The frame gate: is every image of this camera and this board, the right way round, and bright enough?
+
+An image without a board is refused and costs a clean PASS; one of another board fails the calibration,
+because then nobody knows which board the other images show.
+"""
+
+from collections.abc import Sequence
+
+from service.core.errors import WrongTarget
+from service.core.quality.evidence import Evidence, Refusal
+from service.core.quality.gates import Measurement, Verdict, check_limit
+from service.core.vision.transforms import stack_poses
+
+GATE = "frame"
+NAMES_SHOWN = 4
+
+
+def measure_frame(evidence: Evidence) -> tuple[Measurement, ...]:
+    """Return the measurements of the frame gate."""
+    wrong = [refusal for refusal in evidence.refused if refusal.code == WrongTarget.code]
+    other = [refusal for refusal in evidence.refused if refusal.code != WrongTarget.code]
+    return (
+        _wrong_target(wrong),
+        _refused_images(other),
+        *_facing(evidence),
+        _parity(evidence),
+        _contrast(evidence),
+    )
+
+
+def name_some(names: Sequence[str]) -> str:
+    """Return up to four names as words, and how many more there are."""
+    shown = ", ".join(name or "an unnamed image" for name in names[:NAMES_SHOWN])
+    more = len(names) - NAMES_SHOWN
+    return f"{shown} and {more} more" if more > 0 else shown
+
+
+def _wrong_target(wrong: Sequence[Refusal]) -> Measurement:
+    return check_limit(
+        GATE,
+        "wrong_target",
+        float(len(wrong)),
+        "<=",
+        0.0,
+        unit="images",
+        good="No image shows another board than the declared one.",
+        bad=f"Another board than the declared one is in {name_some([r.name for r in wrong])}.",
+        remedy="Use the declared board, or declare the one that is used.",
+    )
+
+
+def _refused_images(refused: Sequence[Refusal]) -> Measurement:
+    return check_limit(
+        GATE,
+        "refused_images",
+        float(len(refused)),
+        "<=",
+        0.0,
+        unit="images",
+        worst=Verdict.MARGINAL,
+        good="Every image could be used.",
+        bad=f"Not used: {name_some([r.name for r in refused])}.",
+        remedy="Take those images again or leave them out.",
+    )
+
+
+def _facing(evidence: Evidence) -> tuple[Measurement, Measurement]:
+    rotations, translations = stack_poses(evidence.result.poses)
+    facing = rotations[:, 2, 2]
+    depth = (rotations @ evidence.target.object_points.T + translations[:, :, None])[:, 2].min(axis=1)
+    return (
+        check_limit(
+            GATE,
+            "facing",
+            float(facing.min()),
+            ">=",
+            0.0,
+            good="The board faces the camera in every view.",
+            bad=f"The solution shows the back of the board in {evidence.names[facing.argmin()]}.",
+            remedy="Take that image again; if it is mirrored, switch off mirroring in the camera.",
+        ),
+        check_limit(
+            GATE,
+            "nearest_corner",
+            float(depth.min()),
+            ">=",
+            0.0,
+            unit="m",
+            good="The board is in front of the camera in every view.",
+            bad=f"The solution puts the board behind the camera in {evidence.names[depth.argmin()]}.",
+            remedy="Take that image again.",
+        ),
+    )
+
+
+def _parity(evidence: Evidence) -> Measurement:
+    worst = min(evidence.views, key=lambda view: view.detection.parity_separation)
+    return check_limit(
+        GATE,
+        "parity_separation",
+        worst.detection.parity_separation,
+        ">=",
+        evidence.limits.parity_separation,
+        share=evidence.limits.share("parity_separation"),
+        good="Dark and bright squares are clearly apart in every view.",
+        bad=f"In {worst.name} dark and bright squares are hard to tell apart.",
+        remedy="Light the board evenly, without reflections, and check that it is the declared one.",
+    )
+
+
+def _contrast(evidence: Evidence) -> Measurement:
+    worst = min(evidence.views, key=lambda view: view.detection.contrast)
+    return check_limit(
+        GATE,
+        "contrast",
+        worst.detection.contrast,
+        ">=",
+        evidence.limits.contrast,
+        unit="grey levels",
+        share=evidence.limits.share("contrast"),
+        good="The contrast is sufficient in every view.",
+        bad=f"Dark and bright squares differ too little in {worst.name}.",
+        remedy="Give more light or a longer exposure.",
+    )

@@ -1,0 +1,111 @@
+"""The model gate: did the solver find the optimum, and is what it found a possible lens?
+
+A solver that stops early returns numbers that look like a camera; so does a distortion polynomial that folds
+back inside the image. Neither shows in the residuals.
+"""
+
+import math
+
+import numpy as np
+
+from service.core.quality.evidence import Evidence
+from service.core.quality.gates import Measurement, check_limit
+from service.core.vision.camera import LENSES, undistort
+from service.core.vision.transforms import stack_poses
+
+GATE = "model"
+OTHER = (
+    "The views do not determine this camera, or the lens model does not suit it: "
+    "take other views, with the board tilted, or choose another lens model."
+)
+RATIO_CAP = 10.0  # a polynomial that never folds has an infinite ratio, which no report can show
+
+
+def measure_model(evidence: Evidence) -> tuple[Measurement, ...]:
+    """Return the measurements of the model gate."""
+    agreement = _agreement(evidence)
+    return (
+        _converged(evidence),
+        *((agreement,) if agreement else ()),
+        _monotone(evidence),
+        _square_pixels(evidence),
+    )
+
+
+def _converged(evidence: Evidence) -> Measurement:
+    return check_limit(
+        GATE,
+        "converged",
+        float(evidence.result.converged),
+        "==",
+        1.0,
+        good="The solver proved that it reached the optimum.",
+        bad="The solver did not reach one optimum from every start.",
+        remedy=OTHER,
+    )
+
+
+def _agreement(evidence: Evidence) -> Measurement | None:
+    """Return how far the starts are apart; None where one failed, which is what `converged` says."""
+    if not math.isfinite(evidence.result.agreement_px):
+        return None
+    return check_limit(
+        GATE,
+        "agreement_px",
+        evidence.result.agreement_px,
+        "<=",
+        evidence.limits.agreement_px,
+        unit="px",
+        share=evidence.limits.share("agreement_px"),
+        good="All starts of the solver lead to the same camera.",
+        bad="Different starts of the solver lead to different cameras.",
+        remedy=OTHER,
+    )
+
+
+def _monotone(evidence: Evidence) -> Measurement:
+    return check_limit(
+        GATE,
+        "monotone_ratio",
+        _monotone_ratio(evidence),
+        ">=",
+        evidence.limits.monotone_ratio,
+        share=evidence.limits.share("monotone_ratio"),
+        good="The distortion grows steadily beyond the farthest corner.",
+        bad="The distortion folds back inside the image, so that two directions share a pixel.",
+        remedy="The lens is wider than this lens model can describe, or no corner was seen near the border: "
+        "choose another lens model, or add views with the board in the corners of the image.",
+    )
+
+
+def _monotone_ratio(evidence: Evidence) -> float:
+    """Return the radius up to which the distortion grows over the farthest radius in use, ideal image plane.
+
+    In use are the corners that were seen and the valid region; 0 where the lens does not reach a point of it.
+    """
+    intrinsics = evidence.result.intrinsics
+    rotations, translations = stack_poses(evidence.result.poses)
+    points = np.swapaxes(rotations @ evidence.target.object_points.T, 1, 2) + translations[:, None]
+    seen = points[..., :2] / points[..., 2:]
+    valid = undistort(intrinsics, evidence.valid_grid)
+    if not np.all(np.isfinite(valid)):
+        return 0.0
+    farthest = max(float(np.linalg.norm(xy, axis=-1).max()) for xy in (seen, valid))
+    limit = float(LENSES[intrinsics.lens].monotone_radius(intrinsics.dist_coeffs))
+    return min(limit / farthest, RATIO_CAP)
+
+
+def _square_pixels(evidence: Evidence) -> Measurement:
+    values = evidence.result.intrinsics.parameters
+    deviation = abs(values["fx"] / values["fy"] - 1.0)
+    return check_limit(
+        GATE,
+        "square_pixels",
+        deviation,
+        "<=",
+        evidence.limits.square_pixels,
+        share=evidence.limits.share("square_pixels"),
+        good="fx and fy agree, as they must for square pixels.",
+        bad=f"fx and fy differ by {deviation:.2%}: the image was stretched, or the squares are not square.",
+        remedy="Measure the board, and record without scaling.",
+    )

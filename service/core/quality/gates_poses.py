@@ -1,0 +1,154 @@
+"""The poses gate: were the prescribed poses taken, is no view there twice, and is the working zone covered?
+
+One view given ten times has the best RMS of all and a focal length that is 45 % off: only this gate and the
+uncertainty see it.
+"""
+
+from itertools import combinations
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from service.core.quality.coverage import covered_share, default_working_zone
+from service.core.quality.evidence import Evidence, Expectation, NamedDetection
+from service.core.quality.gates import Measurement, check_limit, report_value
+from service.core.quality.gates_frame import name_some
+from service.core.vision.camera import project
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Array, Pose, stack_poses
+from service.core.vision.uncertainty import whole_image
+
+GATE = "poses"
+
+
+def measure_poses(evidence: Evidence) -> tuple[Measurement, ...]:
+    """Return the measurements of the poses gate; those of prescribed poses only where there are any."""
+    return (*_prescribed(evidence), _separation(evidence), _coverage(evidence))
+
+
+def match_distances(
+    view: NamedDetection, poses: tuple[Pose, ...], expectation: Expectation, target: Chessboard
+) -> Array:
+    """Return the mean distance of the four outer corners, px (m,), of a view to each of m prescribed poses.
+
+    Only outer corners that the view holds count; NaN where it holds none. Expected corners are projected by
+    the nominal intrinsics, as they are on the operator's screen.
+    """
+    outer = np.array(target.outer_corners)
+    corners = dict(zip(view.detection.corner_ids.tolist(), view.detection.image_points, strict=True))
+    seen = np.array([corners.get(int(i), np.full(2, np.nan)) for i in outer])
+    expected = project(expectation.nominal, *stack_poses(poses), target.object_points[outer])
+    distances = np.linalg.norm(expected - seen, axis=-1)
+    present = np.isfinite(seen[:, 0])
+    if not present.any():
+        return np.full(len(poses), np.nan)
+    mean: Array = distances[:, present].mean(axis=1)
+    return mean
+
+
+def _prescribed(evidence: Evidence) -> tuple[Measurement, ...]:
+    expectation = evidence.expectation
+    if expectation is None or not expectation.poses:
+        return ()
+    errors = _match_errors(evidence, expectation, expectation.poses)
+    limit = evidence.limits.match_share * evidence.image_size[0]
+    taken = {pose for pose, (_, error) in errors.items() if error <= limit}
+    missing = [f"pose {pose + 1}" for pose in range(len(expectation.poses)) if pose not in taken]
+    worst = max(errors.values(), key=lambda named: named[1], default=("", float("nan")))
+    return (
+        check_limit(
+            GATE,
+            "missing_poses",
+            float(len(missing)),
+            "<=",
+            0.0,
+            unit="poses",
+            good="Every prescribed pose was taken.",
+            bad=f"Not taken: {name_some(missing)}.",
+            remedy="Take a picture at each of these poses.",
+        ),
+        check_limit(
+            GATE,
+            "match_px",
+            worst[1],
+            "<=",
+            limit,
+            unit="px",
+            share=evidence.limits.share("match_share"),
+            good="Every view lies on its prescribed pose.",
+            bad=f"{worst[0] or 'No view'} is too far from its prescribed pose.",
+            remedy="Take it again, closer to the pose that is shown.",
+        ),
+    )
+
+
+def _match_errors(
+    evidence: Evidence, expectation: Expectation, poses: tuple[Pose, ...]
+) -> dict[int, tuple[str, float]]:
+    """Return for each answered pose the name of its best view and the distance, px."""
+    distances = np.array(
+        [match_distances(view, poses, expectation, evidence.target) for view in evidence.views]
+    )
+    distances = np.nan_to_num(distances, nan=1e9)
+    if evidence.pose_of_view is None:
+        rows, columns = linear_sum_assignment(distances)
+        pairs = list(zip(rows.tolist(), columns.tolist(), strict=True))
+    else:
+        pairs = [(view, pose) for view, pose in enumerate(evidence.pose_of_view) if pose is not None]
+    errors: dict[int, tuple[str, float]] = {}
+    for view, pose in pairs:
+        error = float(distances[view, pose])
+        if pose not in errors or error < errors[pose][1]:
+            errors[pose] = (evidence.names[view], error)
+    return errors
+
+
+def _separation(evidence: Evidence) -> Measurement:
+    pairs = [(_distance(a, b), a.name, b.name) for a, b in combinations(evidence.views, 2)]
+    smallest, first, second = min(pairs)
+    return check_limit(
+        GATE,
+        "view_separation_px",
+        smallest,
+        ">=",
+        evidence.limits.view_separation_px,
+        unit="px",
+        share=evidence.limits.share("view_separation_px"),
+        good="No view is there twice.",
+        bad=f"{first} and {second} show the board in the same place: together they tell no more than one.",
+        remedy="Leave one of them out, and move the board between pictures.",
+    )
+
+
+def _distance(a: NamedDetection, b: NamedDetection) -> float:
+    """Return the mean distance of the corners that two views share, px; 0 for the same file, inf for none."""
+    if a.sha256 and a.sha256 == b.sha256:
+        return 0.0
+    _, of_a, of_b = np.intersect1d(a.detection.corner_ids, b.detection.corner_ids, return_indices=True)
+    if of_a.size == 0:
+        return float("inf")
+    apart = a.detection.image_points[of_a] - b.detection.image_points[of_b]
+    return float(np.linalg.norm(apart, axis=1).mean())
+
+
+def _coverage(evidence: Evidence) -> Measurement:
+    corners = np.concatenate([view.detection.image_points for view in evidence.views])
+    if evidence.expectation is None:
+        return report_value(
+            GATE,
+            "image_coverage",
+            covered_share(corners, whole_image(evidence.image_size)),
+            advice="The share of the image in which corners were seen; the calibration is valid there only.",
+        )
+    zone = evidence.expectation.working_zone or default_working_zone(evidence.image_size)
+    return check_limit(
+        GATE,
+        "coverage",
+        covered_share(corners, zone),
+        ">=",
+        evidence.limits.coverage,
+        share=evidence.limits.share("coverage"),
+        good="The views cover the working zone.",
+        bad="Parts of the working zone were never seen.",
+        remedy="Add views with the board towards the border of the image.",
+    )

@@ -1,0 +1,64 @@
+"""The sharpness gate: is the lens in focus, and is it in focus everywhere?
+
+RMS is blind to a defocused lens until the blur has a sigma of four pixels; the width of the edges is not. A
+tilted or decentred lens is soft in one part of the image only. Near and far parts of one tilted board differ
+as well, so that quadrants are compared by their median over the views, while the width itself must hold in
+each view.
+"""
+
+import numpy as np
+
+from service.core.quality.evidence import Evidence
+from service.core.quality.gates import Measurement, check_limit
+
+GATE = "sharpness"
+QUADRANTS = ("top left", "top right", "bottom right", "bottom left")
+
+
+def measure_sharpness(evidence: Evidence) -> tuple[Measurement, ...]:
+    """Return the measurements of the sharpness gate."""
+    quadrants = _quadrant_ratio(evidence)
+    return (_edge_width(evidence), *((quadrants,) if quadrants else ()))
+
+
+def _edge_width(evidence: Evidence) -> Measurement:
+    worst = max(evidence.views, key=lambda view: view.detection.sharpness.edge_width_px)
+    return check_limit(
+        GATE,
+        "edge_width_px",
+        worst.detection.sharpness.edge_width_px,
+        "<=",
+        evidence.limits.edge_width_px,
+        unit="px",
+        share=evidence.limits.share("edge_width_px"),
+        good="Every view is sharp.",
+        bad=f"{worst.name} is blurred.",
+        remedy=f"Take {worst.name} again: focus the lens, hold the board still, shorten the exposure, "
+        "or keep the board further away.",
+    )
+
+
+def _quadrant_ratio(evidence: Evidence) -> Measurement | None:
+    """Compare each quadrant with the centre over all views; None where no view has edges in both."""
+    ratios = np.array(
+        [
+            np.array(view.detection.sharpness.quadrants_px) / view.detection.sharpness.centre_px
+            for view in evidence.views
+        ]
+    )
+    seen = [column[np.isfinite(column)] for column in ratios.T]
+    medians = [float(np.median(column)) if column.size else -np.inf for column in seen]
+    worst = int(np.argmax(medians))
+    if not np.isfinite(medians[worst]):
+        return None
+    return check_limit(
+        GATE,
+        "quadrant_ratio",
+        medians[worst],
+        "<=",
+        evidence.limits.quadrant_ratio,
+        share=evidence.limits.share("quadrant_ratio"),
+        good="All quadrants are as sharp as the centre.",
+        bad=f"The image is softer {QUADRANTS[worst]} than in its centre: the lens is tilted or decentred.",
+        remedy="Check how the lens is mounted and focused.",
+    )

@@ -1,0 +1,105 @@
+"""The limits of the gates: data of a SKU revision, with defaults by image size.
+
+Here: the numbers, their defaults and how overrides are checked. Not here: how a value is measured
+(gates_*.py) or turned into a verdict (gates.py).
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+from service.core.errors import LimitsInvalid
+
+MARGINAL_SHARE = 0.8
+LARGE_IMAGE_PX = (
+    1_500_000  # between the two classes of the gate table: 1280x800 (1.0 M) and 1920x1208 (2.3 M)
+)
+
+
+def _default_shares() -> dict[str, float]:
+    """Shares where 0.8 does not suit: nothing covers more than 100 %, and no lens has edges of 0 px."""
+    return {"coverage": 0.944, "edge_width_px": 0.9, "quadrant_ratio": 0.9, "monotone_ratio": 0.95}
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Bounds of the gates; the field's name is the name of the measurement it bounds.
+
+    `marginal` holds, by field name, the share of a limit from which on a value is MARGINAL (0.8 where not
+    named).
+    """
+
+    parity_separation: float = 0.35  # true boards have 0.50 or more, false finds 0.22 and less
+    contrast: float = 40.0  # grey levels
+    edge_width_px: float = 3.0  # 10-90 %
+    quadrant_ratio: float = 1.3
+    match_share: float = 0.02  # of the image width, mean distance of the four outer corners
+    view_separation_px: float = (
+        4.0  # mean corner distance of the two nearest views; below it is the same view twice
+    )
+    coverage: float = 0.85  # share of the working zone within the hull of all corners
+    rms_px: float = 0.35
+    smallest_rms_px: float = 0.02  # below what 8-bit images allow, see gates_fit
+    worst_view_ratio: float = 2.0
+    outlier_share: float = 0.01
+    focal_sd_share: float = 0.001
+    centre_sd_px: float = 0.7
+    zone_mapping_px: float = 0.30
+    valid_mapping_px: float = 1.0
+    agreement_px: float = (
+        0.05  # of the two starts: far above rounding, far below the noise of any calibration
+    )
+    monotone_ratio: float = 1.02
+    square_pixels: float = 0.002
+    marginal: Mapping[str, float] = field(default_factory=_default_shares)
+
+    def share(self, name: str) -> float:
+        """Return the share of limit `name` from which on a value is MARGINAL."""
+        return self.marginal.get(name, MARGINAL_SHARE)
+
+
+LIMIT_NAMES = tuple(f.name for f in fields(Limits) if f.name != "marginal")
+
+
+def default_limits(image_size: tuple[int, int]) -> Limits:
+    """Return the default limits of an image size (width, height), px: larger sensors have finer pixels."""
+    if image_size[0] * image_size[1] < LARGE_IMAGE_PX:
+        return Limits()
+    return Limits(centre_sd_px=0.8, zone_mapping_px=0.40, valid_mapping_px=1.3)
+
+
+def limits_for(image_size: tuple[int, int], overrides: Mapping[str, Any]) -> Limits:
+    """Return the default limits of an image size with some of them replaced.
+
+    overrides: numbers by field name (None: the default), and optionally `marginal`, a mapping of shares by
+    field name. Raises LimitsInvalid for an unknown name or a value that is not a finite number of zero or
+    more (shares: 0 to 1).
+    """
+    limits = default_limits(image_size)
+    shares = overrides.get("marginal") or {}
+    bounds = {name: value for name, value in overrides.items() if name != "marginal" and value is not None}
+    if not isinstance(shares, Mapping):
+        raise LimitsInvalid("'marginal' is a mapping of limit names to shares between 0 and 1.")
+    _check_names([*bounds, *shares])
+    for name, value in bounds.items():
+        _check_number(name, value, math.inf)
+    for name, value in shares.items():
+        _check_number(f"marginal.{name}", value, 1.0)
+    return replace(limits, **bounds, marginal={**limits.marginal, **shares})
+
+
+def _check_names(names: list[str]) -> None:
+    unknown = sorted(set(names) - set(LIMIT_NAMES))
+    if unknown:
+        raise LimitsInvalid(
+            f"No such limit: {', '.join(unknown)}. Limits are: {', '.join(LIMIT_NAMES)}.", unknown=unknown
+        )
+
+
+def _check_number(name: str, value: object, largest: float) -> None:
+    number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    if not number or not 0 <= float(str(value)) <= largest:
+        raise LimitsInvalid(
+            f"The limit '{name}' must be a number from 0 to {largest:g}, not {value!r}.", limit=name
+        )
