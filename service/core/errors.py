@@ -269,6 +269,13 @@ class PoseSetInfeasible(Unprocessable):
     title = "No pose set meets the constraints"
 
 
+class PoseSetInvalid(Unprocessable):
+    """A stored or imported pose set lacks fields or has values of the wrong kind."""
+
+    code = "pose-set-invalid"
+    title = "The pose set cannot be read"
+
+
 class LimitsInvalid(Unprocessable):
     """A limit has an unknown name or an impossible value."""
 

@@ -1,0 +1,33 @@
+"""From light to grey levels: blur, noise, saturation, quantisation. Not here: what the light shows."""
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.transforms import Array
+from service.simulator.scene import Scene
+
+NOISE_LEVEL = 128.0
+
+
+def expose(light: Array, scene: Scene, rng: np.random.Generator) -> NDArray[np.uint8]:
+    """Return the picture (h, w) that a scene's sensor reads from light (h, w), grey levels at exposure 1."""
+    levels = light * scene.exposure if scene.exposure != 1.0 else light
+    if scene.blur_px > 0:
+        levels = _blur(levels, scene.blur_px)
+    if scene.noise_grey > 0:
+        levels = levels + _noise(levels, scene, rng)
+    return np.clip(np.rint(levels), 0, 255).astype(np.uint8)
+
+
+def _blur(levels: Array, sigma_px: float) -> Array:
+    size = 2 * int(np.ceil(4.0 * sigma_px)) + 1
+    blurred = cv2.GaussianBlur(levels, (size, size), sigma_px, borderType=cv2.BORDER_REFLECT_101)
+    return blurred.astype(np.float64, copy=False)
+
+
+def _noise(levels: Array, scene: Scene, rng: np.random.Generator) -> Array:
+    """Return noise (h, w): read noise, the same everywhere, and shot noise that follows the level."""
+    share = scene.shot_share
+    variance = (1.0 - share) + share / NOISE_LEVEL * np.maximum(levels, 0.0)
+    return scene.noise_grey * np.sqrt(variance) * rng.standard_normal(levels.shape, dtype=np.float32)

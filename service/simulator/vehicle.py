@@ -1,0 +1,107 @@
+"""A virtual vehicle: one camera of a SKU as it left its line, and the captures a person takes with it.
+
+Not here: guidance and the hand that follows it; this hand is merely a little off the prescribed poses.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.camera import Intrinsics
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
+from service.simulator.renderer import PreparedScene
+from service.simulator.scene import Scene, true_corners
+
+RETRIES = 40
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """How far a SKU's cameras differ from its nominal: half widths of uniform distributions.
+
+    focal_share: common relative difference of fx and fy; aspect_share: their own; centre_px: of cx and cy;
+    coefficients: by name, where absent the camera has the nominal's.
+    """
+
+    focal_share: float = 0.005
+    aspect_share: float = 0.0003
+    centre_px: float = 4.0
+    coefficients: Mapping[str, float] = field(
+        default_factory=lambda: MappingProxyType({"k1": 0.005, "k2": 0.01, "p1": 0.0003, "p2": 0.0003})
+    )
+
+
+@dataclass(frozen=True)
+class Mismatch:
+    """How far a hand is off a prescribed pose: half widths of uniform distributions per axis.
+
+    position_m: of the target's centre; angle_rad: of the rotation about each axis; margin_px: how far inside the
+    picture the hand keeps every corner, as it would see on its screen.
+    """
+
+    position_m: float = 0.003
+    angle_rad: float = float(np.radians(1.0))
+    margin_px: float = 6.0
+
+
+@dataclass(frozen=True)
+class VirtualCapture:
+    """A picture (h, w) and the pose at which it was truly taken."""
+
+    image: NDArray[np.uint8]
+    pose: Pose
+
+
+def draw_camera(nominal: Intrinsics, tolerance: Tolerance, rng: np.random.Generator) -> Intrinsics:
+    """Return the true intrinsics of one camera of a SKU."""
+    parameters = dict(nominal.parameters)
+    common = rng.uniform(-1.0, 1.0) * tolerance.focal_share
+    for name in ("fx", "fy"):
+        parameters[name] *= 1.0 + common + rng.uniform(-0.5, 0.5) * tolerance.aspect_share
+    for name in ("cx", "cy"):
+        parameters[name] += rng.uniform(-1.0, 1.0) * tolerance.centre_px
+    for name, half_width in tolerance.coefficients.items():
+        parameters[name] += rng.uniform(-1.0, 1.0) * half_width
+    return Intrinsics.from_parameters(nominal.lens, parameters, nominal.image_size)
+
+
+def take_captures(
+    prepared: PreparedScene, poses: Sequence[Pose], mismatch: Mismatch, rng: np.random.Generator
+) -> list[VirtualCapture]:
+    """Return one capture per prescribed pose, each taken a little off it."""
+    held = [hold_board(prepared.scene, pose, mismatch, rng) for pose in poses]
+    return [VirtualCapture(prepared.render(pose, rng), pose) for pose in held]
+
+
+def hold_board(scene: Scene, pose: Pose, mismatch: Mismatch, rng: np.random.Generator) -> Pose:
+    """Return the pose a hand takes for a prescribed one.
+
+    A hand that loses a corner over the picture's border comes a little closer to the prescribed pose and tries
+    again; it ends at that pose if nothing else shows the whole target.
+    """
+    for attempt in range(RETRIES):
+        share = 0.9**attempt
+        held = _shake(scene.target, pose, share * mismatch.position_m, share * mismatch.angle_rad, rng)
+        if _is_inside(true_corners(scene, held), scene.intrinsics.image_size, mismatch.margin_px):
+            return held
+    return pose
+
+
+def _shake(
+    target: Chessboard, pose: Pose, position_m: float, angle_rad: float, rng: np.random.Generator
+) -> Pose:
+    """Return a pose turned about the target's centre and shifted."""
+    turn = rotation_matrix(rng.uniform(-angle_rad, angle_rad, 3))
+    R = pose.rotation
+    centre = R @ target.centre + pose.tvec + rng.uniform(-position_m, position_m, 3)
+    return Pose(rotation_vector(turn @ R), centre - turn @ R @ target.centre)
+
+
+def _is_inside(points: Array, image_size: tuple[int, int], margin_px: float) -> bool:
+    """Return whether points (n, 2) px all lie in the picture, so far from its border; NaN does not."""
+    last = np.array(image_size) - 1.0 - margin_px
+    return bool(np.all((points >= margin_px) & (points <= last)))
