@@ -6,7 +6,7 @@ where the gradient says so and both ends are the same camera. Not here: judging 
 (`service.core.quality`), detecting corners.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from service.core.errors import DegenerateViews, IntrinsicsInvalid
 from service.core.vision.camera import Intrinsics, parameter_names, project
 from service.core.vision.levenberg_marquardt import Fit
-from service.core.vision.multi_start import AGREEMENT_PX, Problem, largest_difference, solve_from_starts
+from service.core.vision.multi_start import AGREEMENT_PX, Ends, Problem, solve_from_starts
 from service.core.vision.normal_equations import reduce
 from service.core.vision.transforms import Array, Pose, rotation_vector
 from service.core.vision.view_stack import View, stack_views
@@ -83,14 +83,13 @@ def calibrate_intrinsics(
     free = np.array([i for i, name in enumerate(names) if name not in fixed], dtype=np.intp)
     problem = Problem(lens, image_size, stack_views(views), free, nominal)
     ends = solve_from_starts(problem)
-    solved = [fit for fit in ends.values() if fit is not None]
+    solved = [fit for fit in ends.fits.values() if fit]
     if not solved:
         raise DegenerateViews(
-            "No camera of this lens model can see the views; check the target and the lens model."
+            "No camera of this lens can see the views; check the target and the lens model."
         )
     best = min(solved, key=lambda fit: fit.equations.cost)
-    agreement = largest_difference(problem, solved) if len(solved) == len(ends) else float("inf")
-    return _result(problem, best, ends, tuple(name for name in names if name in fixed), agreement)
+    return _result(problem, best, ends, tuple(name for name in names if name in fixed))
 
 
 def check_request(
@@ -112,9 +111,7 @@ def check_request(
         )
 
 
-def _result(
-    problem: Problem, best: Fit, ends: Mapping[str, Fit | None], fixed: tuple[str, ...], agreement_px: float
-) -> CalibrationResult:
+def _result(problem: Problem, best: Fit, ends: Ends, fixed: tuple[str, ...]) -> CalibrationResult:
     """Return the public result of the best fit."""
     stack, estimate = problem.stack, best.estimate
     intrinsics = problem.intrinsics(estimate.vector)
@@ -133,9 +130,9 @@ def _result(
         residuals=tuple(error[:count] for error, count in zip(errors, stack.counts, strict=True)),
         sigma_px=float(np.sqrt(variance)),
         rms_px=_rms(problem, best),
-        starts=tuple(_report(problem, name, fit) for name, fit in ends.items()),
-        agreement_px=agreement_px,
-        converged=best.converged and agreement_px <= AGREEMENT_PX,
+        starts=tuple(_report(problem, name, fit) for name, fit in ends.fits.items()),
+        agreement_px=ends.agreement_px,
+        converged=best.converged and ends.agreement_px <= AGREEMENT_PX,
     )
 
 

@@ -96,7 +96,7 @@ def project(intrinsics: Intrinsics, rotation: Array, translation: Array, object_
 def project_with_jacobians(
     lens: str, vector: Array, rotation: Array, translation: Array, object_points: Array
 ) -> tuple[Array, Array, Array]:
-    """Return projections and their derivatives, vectorised over v views.
+    """Return projections and their derivatives, vectorised over v views; components first in memory.
 
     lens: model name; vector: (p,) or (v, p) parameters; rotation: (v, 3, 3); translation: (v, 3) m;
     object_points: (n, 3) or (v, n, 3) m.
@@ -113,23 +113,32 @@ def project_with_jacobians(
     distorted = model.distort(ideal, coefficients)
     by_xy, by_k = model.distort_jacobians(ideal, coefficients)
 
-    by_parameters = np.zeros((*ideal.shape, vector.shape[-1]))
-    by_parameters[..., 0, 0] = distorted[..., 0]
-    by_parameters[..., 1, 1] = distorted[..., 1]
-    by_parameters[..., 0, 2] = by_parameters[..., 1, 3] = 1.0
-    by_parameters[..., 4:] = by_k * focal[..., None]
+    p = vector.shape[-1]
+    by_parameters = np.zeros((2, p, *ideal.shape[:-1]))
+    by_point = np.empty((2, 3, *ideal.shape[:-1]))
+    for axis in range(2):
+        by_parameters[axis, axis] = distorted[..., axis]
+        by_parameters[axis, 2 + axis] = 1.0
+        scaled = focal[..., axis] * inverse_z
+        for column in range(p - 4):
+            by_parameters[axis, 4 + column] = by_k[..., axis, column] * focal[..., axis]
+        by_point[axis, 0] = by_xy[..., axis, 0] * scaled
+        by_point[axis, 1] = by_xy[..., axis, 1] * scaled
+        by_point[axis, 2] = -(by_point[axis, 0] * ideal[..., 0] + by_point[axis, 1] * ideal[..., 1])
+    by_pose = np.concatenate([_by_rotation(turned, by_point), by_point], axis=1)
+    pixels = distorted * focal + vector[..., 2:4]
+    return pixels, by_parameters.transpose(2, 3, 0, 1), by_pose.transpose(2, 3, 0, 1)
 
-    by_ideal = by_xy * focal[..., None]
-    by_pose = np.empty((*ideal.shape, 6))
-    by_point = by_pose[..., 3:]
-    by_point[..., :2] = by_ideal * inverse_z[..., None, None]
-    by_point[..., 2] = -(by_point[..., 0] * ideal[..., :1] + by_point[..., 1] * ideal[..., 1:])
-    # g · (ω × t) = ω · (t × g), for each row g of by_point and turned point t.
-    for axis, (left, right) in enumerate(((1, 2), (2, 0), (0, 1))):
-        by_pose[..., axis] = (
-            turned[..., left, None] * by_point[..., right] - turned[..., right, None] * by_point[..., left]
-        )
-    return distorted * focal + vector[..., 2:4], by_parameters, by_pose
+
+def _by_rotation(turned: Array, by_point: Array) -> Array:
+    """Return derivatives (2, 3, ...) by a rotation ω of turned points (..., 3): g · (ω × t) = ω · (t × g)."""
+    tx, ty, tz = turned[..., 0], turned[..., 1], turned[..., 2]
+    out = np.empty_like(by_point)
+    for axis, (gx, gy, gz) in enumerate(by_point):
+        out[axis, 0] = ty * gz - tz * gy
+        out[axis, 1] = tz * gx - tx * gz
+        out[axis, 2] = tx * gy - ty * gx
+    return out
 
 
 def undistort(intrinsics: Intrinsics, image_points: Array, iterations: int = 30) -> Array:

@@ -23,35 +23,41 @@ def distort(xy: Array, k: Array) -> Array:
 
 
 def distort_jacobians(xy: Array, k: Array) -> tuple[Array, Array]:
-    """Return derivatives of the distorted point by xy (..., 2, 2) and by the coefficients (..., 2, 5)."""
+    """Return derivatives of the distorted point by xy (..., 2, 2) and by the coefficients (..., 2, 5).
+
+    The components come first in memory, so that each is written in one stroke.
+    """
     x, y = xy[..., 0], xy[..., 1]
     k1, k2, p1, p2, k3 = (k[..., i] for i in range(5))
-    r2 = x * x + y * y
+    xx, yy, xy2 = x * x, y * y, 2.0 * x * y
+    r2 = xx + yy
     radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
     slope = 2.0 * (k1 + r2 * (2.0 * k2 + 3.0 * r2 * k3))
-    by_xy = np.empty((*x.shape, 2, 2))
-    by_xy[..., 0, 0] = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x
-    by_xy[..., 0, 1] = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y
-    by_xy[..., 1, 0] = by_xy[..., 0, 1]
-    by_xy[..., 1, 1] = radial + slope * y * y + 6.0 * p1 * y + 2.0 * p2 * x
-    by_k = np.empty((*x.shape, 2, 5))
+    tangential_x, tangential_y = 2.0 * (p2 * x + p1 * y), 2.0 * (p1 * x + p2 * y)
+    by_xy = np.empty((2, 2, *x.shape))
+    by_xy[0, 0] = radial + slope * xx + tangential_x + 4.0 * p2 * x
+    by_xy[0, 1] = by_xy[1, 0] = 0.5 * slope * xy2 + tangential_y
+    by_xy[1, 1] = radial + slope * yy + tangential_x + 4.0 * p1 * y
+    by_k = np.empty((2, 5, *x.shape))
     for axis, value in enumerate((x, y)):
-        by_k[..., axis, 0] = value * r2
-        by_k[..., axis, 1] = value * r2 * r2
-        by_k[..., axis, 4] = value * r2 * r2 * r2
-    by_k[..., 0, 2] = 2.0 * x * y
-    by_k[..., 0, 3] = r2 + 2.0 * x * x
-    by_k[..., 1, 2] = r2 + 2.0 * y * y
-    by_k[..., 1, 3] = 2.0 * x * y
-    return by_xy, by_k
+        by_k[axis, 0] = value * r2
+        by_k[axis, 1] = by_k[axis, 0] * r2
+        by_k[axis, 4] = by_k[axis, 1] * r2
+    by_k[0, 2] = by_k[1, 3] = xy2
+    by_k[0, 3] = r2 + 2.0 * xx
+    by_k[1, 2] = r2 + 2.0 * yy
+    last = (*range(2, x.ndim + 2), 0, 1)
+    return by_xy.transpose(last), by_k.transpose(last)
 
 
 def monotone_radius(k: Array) -> float:
     """Return the ideal radius up to which the distorted radius grows (inf where it always does).
 
-    The radial part r(1 + k1 r² + k2 r⁴ + k3 r⁶) turns at the smallest positive root of its derivative.
+    The radial part r(1 + k1 r² + k2 r⁴ + k3 r⁶) turns where 1 + 3 k1 r² + 5 k2 r⁴ + 7 k3 r⁶ has its smallest
+    positive root; in 1/r² that is the largest root of a cubic whose leading coefficient is one.
     """
-    roots = np.roots([7.0 * k[4], 5.0 * k[1], 3.0 * k[0], 1.0])
-    real = roots[np.abs(roots.imag) < 1e-9].real
-    positive = real[real > 0]
-    return float(np.sqrt(positive.min())) if positive.size else float("inf")
+    companion = np.array([[-3.0 * k[0], -5.0 * k[1], -7.0 * k[4]], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    roots = np.linalg.eigvals(companion)
+    real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots).max()].real
+    largest = real.max(initial=0.0)
+    return float(1.0 / np.sqrt(largest)) if largest > 1e-12 else float("inf")

@@ -47,13 +47,20 @@ class _Step:
 
 
 def minimise(
-    lens: str, stack: ViewStack, start: Estimate, free: NDArray[np.intp], iterations: int = 200
+    lens: str,
+    stack: ViewStack,
+    start: Estimate,
+    free: NDArray[np.intp],
+    *,
+    iterations: int = 200,
+    damping: float = FIRST_DAMPING,
 ) -> Fit | None:
     """Minimise the squared reprojection errors over the free parameters (indices) and all poses.
 
-    None where the start is not feasible: a corner behind the camera or beyond the fold of the lens.
+    damping: the first one; small where the start is known to be near, so that the first step is nearly
+    Newton's. None where the start is not feasible: a corner behind the camera or beyond the fold of the lens.
     """
-    here, damping = start, FIRST_DAMPING
+    here = start
     if not is_feasible(lens, here, stack.object_points):
         return None
     equations = linearise(lens, stack, here, free)

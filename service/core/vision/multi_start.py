@@ -1,13 +1,14 @@
 """A solve from starts that know nothing of each other, so that a false optimum shows.
 
 From each start the solve runs on a few corners of each view first, which is cheap and ends close to the
-optimum, then on all of them. Not here: how a start is found (`calibration_start`), what becomes of the ends
-(`calibration`).
+optimum. Where those ends are one camera, the last steps on all corners are taken once, for from there both
+would be the same; where they are not, each start is solved on all corners. Not here: how a start is found
+(`calibration_start`), what becomes of the ends (`calibration`).
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,7 @@ from service.core.vision.view_stack import ViewStack
 
 AGREEMENT_PX = 0.05
 THINNED_CORNERS = 16
-THINNED_ITERATIONS = 60
+DAMPING_NEAR_OPTIMUM = 1e-9
 
 
 @dataclass(frozen=True)
@@ -40,58 +41,77 @@ class Problem:
         return Intrinsics.from_vector(self.lens, vector, self.image_size)
 
 
-def solve_from_starts(problem: Problem) -> Mapping[str, Fit | None]:
-    """Return the ends by the names of their starts: `nominal` or, without one, `sweep`; and `blind`.
+@dataclass(frozen=True)
+class Ends:
+    """Where the solve ended by the name of each start (None: nowhere), and how far apart the ends are."""
 
-    Where blind and nominal end at different cameras, the sweep decides whether blind was merely unlucky.
+    fits: Mapping[str, Fit | None]
+    agreement_px: float
+
+
+def solve_from_starts(problem: Problem) -> Ends:
+    """Return the ends of the starts `nominal` or, without one, `sweep`; and `blind`.
+
+    agreement_px is inf where a start gave no end. Where blind and nominal end at different cameras, the sweep
+    decides whether blind was merely unlucky.
     """
-    blind = _from_blind(problem)
-    if problem.nominal is None:
-        return {"sweep": _from_sweep(problem), "blind": blind}
-    nominal = _solve(problem, nominal_start(problem.nominal, problem.stack))
-    if not (nominal and blind and largest_difference(problem, [nominal, blind]) <= AGREEMENT_PX):
-        blind = _cheapest([fit for fit in (blind, _from_sweep(problem)) if fit])
-    return {"nominal": nominal, "blind": blind}
-
-
-def largest_difference(problem: Problem, fits: Sequence[Fit]) -> float:
-    """Return the largest difference over the image, px, between fits; inf where they share no pixel."""
-    largest = 0.0
-    grid = whole_image(problem.image_size)
-    cameras = [problem.intrinsics(fit.estimate.vector) for fit in fits]
-    for a, b in pairwise(cameras):
-        difference = mapping_difference(a, b, grid)
-        shared = difference[np.isfinite(difference)]
-        largest = max(largest, float(shared.max()) if shared.size else float("inf"))
-    return largest
-
-
-def _from_blind(problem: Problem) -> Fit | None:
-    start = blind_start(problem.lens, problem.image_size, problem.stack)
-    return None if start is None else _solve(problem, start)
-
-
-def _from_sweep(problem: Problem) -> Fit | None:
-    """Return the end of the start whose solve on a few corners is the best of the sweep."""
     thinned = problem.stack.thinned(THINNED_CORNERS)
-    starts = [_held(problem, start) for start in sweep_starts(problem.lens, problem.image_size, thinned)]
-    fits = [minimise(problem.lens, thinned, start, problem.free, THINNED_ITERATIONS) for start in starts]
-    best = _cheapest([fit for fit in fits if fit])
-    return None if best is None else _solve(problem, best.estimate)
+    blind = _coarse(problem, thinned, [blind_start(problem.lens, problem.image_size, thinned)])
+    if problem.nominal is None:
+        return _finish(problem, {"sweep": _sweep(problem, thinned), "blind": blind})
+    nominal = _coarse(problem, thinned, [nominal_start(problem.nominal, thinned)])
+    ends = _finish(problem, {"nominal": nominal, "blind": blind})
+    if ends.agreement_px <= AGREEMENT_PX:
+        return ends
+    return _finish(problem, {"nominal": nominal, "blind": _cheapest([blind, _sweep(problem, thinned)])})
 
 
-def _cheapest(fits: Sequence[Fit]) -> Fit | None:
-    return min(fits, key=lambda fit: fit.equations.cost, default=None)
+def _sweep(problem: Problem, thinned: ViewStack) -> Fit | None:
+    """Return the best end of a sweep of focal lengths on a few corners of each view."""
+    return _coarse(problem, thinned, sweep_starts(problem.lens, problem.image_size, thinned))
 
 
-def _solve(problem: Problem, start: Estimate) -> Fit | None:
-    """Solve on a few corners, then on all; None where the start is not feasible."""
-    start = _held(problem, start)
-    coarse = minimise(
-        problem.lens, problem.stack.thinned(THINNED_CORNERS), start, problem.free, THINNED_ITERATIONS
-    )
-    fine = minimise(problem.lens, problem.stack, coarse.estimate, problem.free) if coarse else None
-    return fine or minimise(problem.lens, problem.stack, start, problem.free)
+def _coarse(problem: Problem, thinned: ViewStack, starts: Sequence[Estimate | None]) -> Fit | None:
+    """Return the best end of some starts, solved on a few corners of each view."""
+    held = [_held(problem, start) for start in starts if start is not None]
+    return _cheapest([minimise(problem.lens, thinned, start, problem.free, iterations=60) for start in held])
+
+
+def _cheapest(fits: Sequence[Fit | None]) -> Fit | None:
+    """Return the fit of least cost; None where there is none."""
+    return min((fit for fit in fits if fit), key=lambda fit: fit.equations.cost, default=None)
+
+
+def _finish(problem: Problem, coarse: Mapping[str, Fit | None]) -> Ends:
+    """Return the ends on all corners of the ends on a few."""
+    agreement = _largest_difference(problem, coarse)
+    if agreement <= AGREEMENT_PX:
+        common = _fine(problem, next(iter(coarse.values())))
+        return Ends({name: _counted(common, fit) for name, fit in coarse.items()}, agreement)
+    fits = {name: _counted(_fine(problem, fit), fit) for name, fit in coarse.items()}
+    return Ends(fits, _largest_difference(problem, fits))
+
+
+def _fine(problem: Problem, near: Fit | None) -> Fit | None:
+    """Return the end on all corners; None where the lens cannot show them all from there."""
+    if near is None:
+        return None
+    return minimise(problem.lens, problem.stack, near.estimate, problem.free, damping=DAMPING_NEAR_OPTIMUM)
+
+
+def _counted(fit: Fit | None, coarse: Fit | None) -> Fit | None:
+    """Return a fit with the steps of its coarse part added."""
+    return replace(fit, iterations=fit.iterations + coarse.iterations) if fit and coarse else fit
+
+
+def _largest_difference(problem: Problem, fits: Mapping[str, Fit | None]) -> float:
+    """Return the largest difference of ends, px over the image; inf without an end or a common pixel."""
+    cameras = [problem.intrinsics(fit.estimate.vector) for fit in fits.values() if fit]
+    if len(cameras) < len(fits):
+        return float("inf")
+    grid = whole_image(problem.image_size)
+    differences = np.array([mapping_difference(a, b, grid) for a, b in combinations(cameras, 2)])
+    return float(np.nanmax(differences, initial=0.0)) if np.any(np.isfinite(differences)) else float("inf")
 
 
 def _held(problem: Problem, start: Estimate) -> Estimate:

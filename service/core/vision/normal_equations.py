@@ -80,14 +80,16 @@ def linearise(lens: str, stack: ViewStack, estimate: Estimate, free: NDArray[np.
         lens, estimate.vector, estimate.rotations, estimate.translations, stack.object_points
     )
     views, count, f = len(pixels), pixels.shape[1], len(free)
-    J = np.empty((views, count, 2, f + 7))
-    J[..., :f] = by_parameters if f == by_parameters.shape[-1] else by_parameters[..., free]
-    J[..., f:-1] = by_pose
-    J[..., -1] = stack.image_points - pixels
+    # One row for each unknown: the products below then run along contiguous memory.
+    J = np.empty((views, f + 7, 2, count))
+    rows = J.transpose(0, 3, 2, 1)
+    rows[..., :f] = by_parameters if f == by_parameters.shape[-1] else by_parameters[..., free]
+    rows[..., f:-1] = by_pose
+    rows[..., -1] = stack.image_points - pixels
     if stack.is_weighted:
-        J *= stack.weights[..., None, None]
-    rows = J.reshape(views, 2 * count, f + 7)
-    G = np.swapaxes(rows, -1, -2) @ rows
+        J *= stack.weights[:, None, None, :]
+    flat = J.reshape(views, f + 7, 2 * count)
+    G = flat @ np.swapaxes(flat, -1, -2)
     return NormalEquations(
         G[:, :f, :f], G[:, :f, f:-1], G[:, f:-1, f:-1], G[:, :f, -1], G[:, f:-1, -1], G[:, -1, -1]
     )

@@ -105,8 +105,7 @@ def _damped_step(information: Array, gradient: Array, damping: Array) -> Array:
     """Return Marquardt's steps (s, 6)."""
     diagonal = np.diagonal(information, axis1=-2, axis2=-1)
     damped = information + (damping[:, None] * diagonal)[..., None] * np.eye(6)
-    step: Array = np.linalg.solve(damped, gradient[..., None])[..., 0]
-    return step
+    return np.asarray(np.linalg.solve(damped, gradient[..., None])[..., 0], dtype=np.float64)
 
 
 def _normal_equations(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.errors import DegenerateViews, TooFewViews
 from service.core.vision.transforms import Array
@@ -68,36 +69,66 @@ def stack_views(views: Sequence[View]) -> ViewStack:
             views_needed=VIEWS_NEEDED,
         )
     for number, view in enumerate(views):
-        check_view(view, view.name or f"number {number}")
+        _check_shapes(view, _name(view, number))
     counts = tuple(len(view.image_points) for view in views)
-    index = np.array([[i if i < n else 0 for i in range(max(counts))] for n in counts])
-    return ViewStack(
-        np.stack([np.asarray(view.object_points, float)[i] for view, i in zip(views, index, strict=True)]),
-        np.stack([np.asarray(view.image_points, float)[i] for view, i in zip(views, index, strict=True)]),
-        (np.arange(max(counts)) < np.array(counts)[:, None]).astype(np.float64),
+    weights = (np.arange(max(counts)) < np.array(counts)[:, None]).astype(np.float64)
+    stack = ViewStack(
+        np.stack([_padded(view.object_points, max(counts)) for view in views]),
+        np.stack([_padded(view.image_points, max(counts)) for view in views]),
+        weights,
         counts,
     )
+    _check_values(stack, [_name(view, number) for number, view in enumerate(views)])
+    return stack
 
 
-def check_view(view: View, name: str) -> View:
-    """Return the view, or raise DegenerateViews saying what makes it unusable."""
-    board, image = np.asarray(view.object_points), np.asarray(view.image_points)
-    if board.shape != (len(image), 3) or image.shape != (len(board), 2):
-        problem = f"has {board.shape} object points for {image.shape} image points; give (n, 3) and (n, 2)"
-    elif len(board) < CORNERS_NEEDED:
-        problem = f"has {len(board)} corners; give at least {CORNERS_NEEDED}"
-    elif not (np.all(np.isfinite(board)) and np.all(np.isfinite(image))):
-        problem = "has a corner that is not a finite number; detect it again"
-    elif np.any(board[:, 2] != 0.0):
-        problem = "has object points off the plane z = 0; only flat targets are calibrated"
-    elif _is_on_a_line(board[:, :2]) or _is_on_a_line(image):
-        problem = "has all its corners on one line; show the target less edge-on"
-    else:
-        return view
-    raise DegenerateViews(f"View {name} {problem}.", view=name)
+def _name(view: View, number: int) -> str:
+    return view.name or f"number {number}"
 
 
-def _is_on_a_line(points: Array) -> bool:
-    """Whether points (n, 2) spread along one direction only."""
-    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    return bool(spread[1] <= 1e-6 * spread[0])
+def _padded(points: Array, count: int) -> Array:
+    """Return points (n, d) with the first repeated to `count` of them."""
+    points = np.asarray(points, dtype=np.float64)
+    missing = count - len(points)
+    return np.concatenate([points, np.repeat(points[:1], missing, axis=0)]) if missing else points
+
+
+def _check_shapes(view: View, name: str) -> None:
+    """Raise DegenerateViews where a view's arrays do not belong together or are too short."""
+    board, image = np.shape(view.object_points), np.shape(view.image_points)
+    if board != (image[0], 3) or image != (board[0], 2):
+        raise DegenerateViews(
+            f"View {name} has {board} object points for {image} image points; give (n, 3) and (n, 2).",
+            view=name,
+        )
+    if image[0] < CORNERS_NEEDED:
+        raise DegenerateViews(
+            f"View {name} has {image[0]} corners; a view needs at least {CORNERS_NEEDED}.", view=name
+        )
+
+
+def _check_values(stack: ViewStack, names: Sequence[str]) -> None:
+    """Raise DegenerateViews naming the first view whose points are not finite, not flat or on one line."""
+    board, image = stack.object_points, stack.image_points
+    problems = {
+        "has a corner that is not a finite number; detect it again": ~(
+            np.isfinite(board).all(axis=(1, 2)) & np.isfinite(image).all(axis=(1, 2))
+        ),
+        "has object points off the plane z = 0; only flat targets are calibrated": np.any(
+            board[..., 2] != 0, axis=1
+        ),
+        "has all its corners on one line; show the target less edge-on": _on_a_line(board[..., :2])
+        | _on_a_line(image),
+    }
+    for problem, views in problems.items():
+        if np.any(views):
+            name = names[int(np.argmax(views))]
+            raise DegenerateViews(f"View {name} {problem}.", view=name)
+
+
+def _on_a_line(points: Array) -> NDArray[np.bool_]:
+    """Whether the points (v, n, 2) of each view spread along one direction only."""
+    about = points - points.mean(axis=1, keepdims=True)
+    spread = np.swapaxes(about, -1, -2) @ about
+    determinant = spread[:, 0, 0] * spread[:, 1, 1] - spread[:, 0, 1] ** 2
+    return np.asarray(determinant <= 1e-12 * (spread[:, 0, 0] + spread[:, 1, 1]) ** 2)
