@@ -10,7 +10,7 @@ import numpy as np
 
 from service.core.vision.camera import Intrinsics, parameter_names, undistort
 from service.core.vision.normal_equations import Estimate
-from service.core.vision.transforms import Array
+from service.core.vision.transforms import Array, rotation_matrix
 from service.core.vision.view_stack import ViewStack
 
 SWEEP_HFOV_DEG = (30.0, 45.0, 60.0, 80.0, 100.0, 120.0, 140.0)
@@ -73,7 +73,30 @@ def planar_poses(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
     U, _, Vt = np.linalg.svd(columns)
     rotations = U @ Vt
     rotations = rotations * np.sign(np.linalg.det(rotations))[:, None, None]
-    return rotations, H[..., 2] - np.einsum("vij,vj->vi", rotations[..., :2], centre)
+    translations = H[..., 2] - np.einsum("vij,vj->vi", rotations[..., :2], centre)
+    depths = stack.visible_points @ rotations[:, 2, :, None] + translations[:, None, 2:]
+    behind = depths.min(axis=(1, 2)) <= 0
+    if np.any(behind):
+        # A lens far from the assumed one can bend a view so much that its homography crosses the camera's
+        # plane.
+        frontal = _frontal_poses(stack, ideal)
+        rotations = np.where(behind[:, None, None], frontal[0], rotations)
+        translations = np.where(behind[:, None], frontal[1], translations)
+    return rotations, translations
+
+
+def _frontal_poses(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
+    """Return rotations (v, 3, 3), translations (v, 3) m of boards parallel to the image, by similarities."""
+    w = stack.weights
+    board = stack.object_points[..., 0] + 1j * stack.object_points[..., 1]
+    image = ideal[..., 0] + 1j * ideal[..., 1]
+    middles = [np.sum(w * points, axis=1) / w.sum(axis=1) for points in (board, image)]
+    board, image = board - middles[0][:, None], image - middles[1][:, None]
+    similarity = np.sum(w * board.conj() * image, axis=1) / np.sum(w * np.abs(board) ** 2, axis=1)
+    depth = 1.0 / np.maximum(np.abs(similarity), 1e-9)
+    rotations = rotation_matrix(np.angle(similarity)[:, None] * np.array([0.0, 0.0, 1.0]))
+    origin = (middles[1] - similarity * middles[0]) * depth
+    return rotations, np.stack([origin.real, origin.imag, depth], axis=-1)
 
 
 def _plain_vector(lens: str, focal: float, image_size: tuple[int, int]) -> Array:

@@ -61,7 +61,7 @@ def minimise(
     Newton's. None where the start is not feasible: a corner behind the camera or beyond the fold of the lens.
     """
     here = start
-    if not is_feasible(lens, here, stack.object_points):
+    if not is_feasible(lens, here, stack.visible_points):
         return None
     equations = linearise(lens, stack, here, free)
     for iteration in range(iterations):
@@ -117,7 +117,7 @@ def _try(
     parameter_step = np.zeros_like(here.vector)
     parameter_step[free] = step.parameters
     moved = here.moved(parameter_step, step.poses)
-    if not is_feasible(lens, moved, stack.object_points):
+    if not is_feasible(lens, moved, stack.visible_points):
         return None
     return moved, linearise(lens, stack, moved, free)
 

@@ -5,7 +5,7 @@ Not here: solving.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,12 +28,16 @@ class View:
 
 @dataclass(frozen=True)
 class ViewStack:
-    """Padded views: object_points (v, n, 3) m, image_points (v, n, 2) px, weights (v, n), counts (v,)."""
+    """Padded views: object_points (v, n, 3) m, image_points (v, n, 2) px, weights (v, n), counts (v,).
+
+    visible_points (v, m, 3) m: those that a camera must be able to show, thinned or not.
+    """
 
     object_points: Array
     image_points: Array
     weights: Array
     counts: tuple[int, ...]
+    visible_points: Array
 
     @property
     def measurements(self) -> int:
@@ -52,7 +56,13 @@ class ViewStack:
         counts = tuple(int(n) for n in np.count_nonzero(weights, axis=1))
         if min(counts) < CORNERS_NEEDED:
             return self
-        return ViewStack(self.object_points[:, keep], self.image_points[:, keep], weights, counts)
+        return replace(
+            self,
+            object_points=self.object_points[:, keep],
+            image_points=self.image_points[:, keep],
+            weights=weights,
+            counts=counts,
+        )
 
 
 def stack_views(views: Sequence[View]) -> ViewStack:
@@ -72,12 +82,9 @@ def stack_views(views: Sequence[View]) -> ViewStack:
         _check_shapes(view, _name(view, number))
     counts = tuple(len(view.image_points) for view in views)
     weights = (np.arange(max(counts)) < np.array(counts)[:, None]).astype(np.float64)
-    stack = ViewStack(
-        np.stack([_padded(view.object_points, max(counts)) for view in views]),
-        np.stack([_padded(view.image_points, max(counts)) for view in views]),
-        weights,
-        counts,
-    )
+    board = np.stack([_padded(view.object_points, max(counts)) for view in views])
+    image = np.stack([_padded(view.image_points, max(counts)) for view in views])
+    stack = ViewStack(board, image, weights, counts, visible_points=board)
     _check_values(stack, [_name(view, number) for number, view in enumerate(views)])
     return stack
 
