@@ -1,0 +1,98 @@
+"""How a camera sees a target at many poses, and where in the image a target of a size and turn can be.
+
+Not here: which bounds that must meet (`pose_space`).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from service.core.vision.camera import LENSES, Intrinsics, project, undistort
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Array
+
+# Two rounds place a board to a few pixels; the exact check rejects what still sticks out.
+PLACING_ROUNDS = 2
+# A lens polynomial is trusted up to this share of the radius where it turns back.
+LENS_SHARE = 0.98
+
+
+@dataclass(frozen=True)
+class Visibility:
+    """What m poses look like; every array (m,), NaN where a corner is behind the camera.
+
+    clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
+    shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
+    to a corner. lens_share: largest ideal radius of a corner over the radius up to which the lens model is
+    monotone.
+    """
+
+    clearance_px: Array
+    smallest_square_px: Array
+    incidence_rad: Array
+    lens_share: Array
+
+
+def measure_visibility(
+    intrinsics: Intrinsics, target: Chessboard, rotations: Array, translations: Array
+) -> Visibility:
+    """Return what poses (m, 3, 3), (m, 3) look like to a camera."""
+    points = target.object_points @ np.swapaxes(rotations, -1, -2) + translations[:, None, :]
+    depth = points[..., 2]
+    ideal = points[..., :2] / np.where(depth > 0, depth, np.nan)[..., None]
+    pixels = project(intrinsics, rotations, translations, target.object_points)
+    to_border = np.minimum(pixels, np.array(intrinsics.image_size) - 1.0 - pixels)
+    limit = LENSES[intrinsics.lens].monotone_radius(intrinsics.vector[4:])
+    cosine = np.einsum("mni,mi->mn", points, rotations[:, :, 2]) / np.linalg.norm(points, axis=-1)
+    return Visibility(
+        clearance_px=to_border.min(axis=(1, 2)),
+        smallest_square_px=_shortest_side(pixels, target),
+        incidence_rad=np.arccos(np.clip(cosine, -1.0, 1.0)).max(axis=1),
+        lens_share=np.linalg.norm(ideal, axis=-1).max(axis=1) / limit,
+    )
+
+
+def place_targets(
+    intrinsics: Intrinsics,
+    target: Chessboard,
+    rotations: Array,
+    distances: Array,
+    *,
+    places: Array,
+    margin_px: float,
+) -> Array:
+    """Return translations (m, 3), m, that put targets at `places` (m, 2), 0…1 of where they fit.
+
+    rotations: (m, 3, 3); distances: (m,) of the centre from the camera, m. A place of 0 touches the left or
+    top margin, 1 the right or bottom one. Where a board does not fit at all its translation is NaN.
+    """
+    size = np.array(intrinsics.image_size, dtype=np.float64)
+    centre_px = np.tile((size - 1.0) / 2.0, (len(rotations), 1))
+    outline = target.object_points[list(target.outer_corners)]
+    translations = _translations(intrinsics, target, rotations, distances, centre_px)
+    for _ in range(PLACING_ROUNDS):
+        pixels = project(intrinsics, rotations, translations, outline)
+        low = margin_px + centre_px - pixels.min(axis=1)
+        high = size - 1.0 - margin_px - (pixels.max(axis=1) - centre_px)
+        centre_px = np.where(low <= high, low + places * (high - low), np.nan)
+        translations = _translations(intrinsics, target, rotations, distances, centre_px)
+    return translations
+
+
+def _translations(
+    intrinsics: Intrinsics, target: Chessboard, rotations: Array, distances: Array, centre_px: Array
+) -> Array:
+    """Return translations (m, 3) of targets whose centres lie on the rays of pixels (m, 2)."""
+    rays = np.concatenate([undistort(intrinsics, centre_px), np.ones((len(centre_px), 1))], axis=1)
+    centres = rays * (distances / np.linalg.norm(rays, axis=1))[:, None]
+    translations: Array = centres - rotations @ target.centre
+    return translations
+
+
+def _shortest_side(pixels: Array, target: Chessboard) -> Array:
+    """Return the shortest distance (m,) between neighbouring corners of image points (m, n, 2)."""
+    grid = pixels.reshape(-1, target.rows, target.columns, 2)
+    along_rows = np.linalg.norm(np.diff(grid, axis=2), axis=-1).min(axis=(1, 2))
+    along_columns = np.linalg.norm(np.diff(grid, axis=1), axis=-1).min(axis=(1, 2))
+    shortest: Array = np.minimum(along_rows, along_columns)
+    return shortest
