@@ -22,11 +22,13 @@ def measure_sharpness(evidence: Evidence) -> tuple[Measurement, ...]:
 
 
 def _edge_width(evidence: Evidence) -> Measurement:
-    worst = max(evidence.views, key=lambda view: view.detection.sharpness.edge_width_px)
+    # A view whose edges could not be measured is no sharper than the softest one.
+    widths = [np.nan_to_num(v.detection.sharpness.edge_width_px, nan=np.inf) for v in evidence.views]
+    worst = evidence.views[int(np.argmax(widths))]
     return check_limit(
         GATE,
         "edge_width_px",
-        worst.detection.sharpness.edge_width_px,
+        float(max(widths)),
         "<=",
         evidence.limits.edge_width_px,
         unit="px",

@@ -1,0 +1,250 @@
+"""The command `dmscal`: one verb each, the same use cases as the service.
+
+Exit status: 0 done (calibrate: PASS or MARGINAL), 1 calibrate: FAIL, 2 bad input or something that is not
+there, 130 interrupted. Problems go to stderr, with --json to stdout as a problem document.
+Not here: what the verbs do (use cases) and how the service is put together (app).
+"""
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+from uuid import UUID
+
+from pydantic import ValidationError
+
+from service import __version__
+from service.adapters.clock_system import SystemClock
+from service.api.problems import problem_body, status_of
+from service.core.errors import BadRequest, ServiceError
+from service.core.planning.document import pose_set_to_dict
+from service.core.planning.plan import plan_pose_set
+from service.core.quality.gates import Verdict
+from service.core.vision.target import parse_target
+from service.settings import Settings
+from service.storage.database import Database
+from service.storage.migration import check_at_head, revision_of, upgrade
+from service.storage.words import Role
+from service.usecases.access import create_key, list_keys, revoke_key
+from service.usecases.folder_calibration import calibrate_folder
+from service.usecases.folder_report import report_document, report_text
+from service.usecases.paging import PageRequest
+from service.usecases.plan_report import plan_text
+from service.usecases.sku_file import read_sku_file
+
+WHO = "command line"
+KEYS_SHOWN = 1000
+DONE, FAILED, BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command with these arguments (by default the process's) and return its exit status."""
+    arguments = build_parser().parse_args(argv)
+    try:
+        status: int = arguments.run(arguments)
+        sys.stdout.flush()
+    except ServiceError as error:
+        return _tell(error, as_json=getattr(arguments, "json", False))
+    except BrokenPipeError:
+        # Whoever read the output has enough; Python must not try again at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return PIPE_CLOSED
+    except KeyboardInterrupt:
+        sys.stderr.write("Interrupted.\n")
+        return INTERRUPTED
+    return status
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of all verbs; each sets `run`, a function from the arguments to the exit status."""
+    parser = argparse.ArgumentParser(prog="dmscal", description="Camera calibration with pose guidance.")
+    verbs = parser.add_subparsers(required=True, metavar="COMMAND")
+    _add_calibrate(verbs.add_parser("calibrate", help="calibrate from a folder of images, without a server"))
+    _add_plan(verbs.add_parser("plan", help="plan the poses of a SKU, without a server"))
+    _add_migrate(verbs.add_parser("migrate", help="bring the database to the tables of this version"))
+    _add_keys(verbs.add_parser("keys", help="add, list and revoke API keys"))
+    verbs.add_parser("version", help="print the version").set_defaults(run=_version, program=parser.prog)
+    return parser
+
+
+def _add_calibrate(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", type=Path, help="folder with the images of one camera")
+    parser.add_argument("--target", help="such as chessboard:9x6:25mm (inner corners); by default the SKU's")
+    parser.add_argument("--lens", help="lens model; by default the SKU's, else pinhole5")
+    parser.add_argument("--fix", metavar="NAMES", help="parameters that are not estimated, such as k3,p1,p2")
+    parser.add_argument(
+        "--sku", type=Path, metavar="FILE", help="SKU document (JSON): nominal camera and limits"
+    )
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.set_defaults(run=_calibrate)
+
+
+def _calibrate(arguments: argparse.Namespace) -> int:
+    revision = read_sku_file(arguments.sku) if arguments.sku else None
+    if arguments.target is not None:
+        target = parse_target(arguments.target)
+    elif revision is not None:
+        target = revision.target
+    else:
+        raise BadRequest("Say which target the images show, for example --target chessboard:9x6:25mm.")
+    lens = arguments.lens or (revision.intrinsics.lens if revision else "pinhole5")
+    fixed = revision.fixed if revision else ()
+    if arguments.fix is not None:
+        fixed = tuple(name.strip() for name in arguments.fix.split(",") if name.strip())
+    calibration = calibrate_folder(arguments.folder, target, lens, fixed=fixed, revision=revision)
+    _print(_to_json(report_document(calibration)) if arguments.json else report_text(calibration))
+    return FAILED if calibration.judged.verdict is Verdict.FAIL else DONE
+
+
+def _add_plan(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("sku", type=Path, help="SKU document (JSON)")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write the pose set to this file")
+    parser.add_argument("--count", type=int, metavar="N", help="number of poses; by default the SKU's")
+    parser.add_argument("--seed", type=int, default=0, help="the same seed gives the same poses (default 0)")
+    parser.add_argument("--json", action="store_true", help="print the pose set as one JSON object")
+    parser.set_defaults(run=_plan)
+
+
+def _plan(arguments: argparse.Namespace) -> int:
+    revision = read_sku_file(arguments.sku)
+    pose_set = plan_pose_set(
+        revision.intrinsics,
+        revision.target,
+        revision.pose_space,
+        revision.pose_count if arguments.count is None else arguments.count,
+        arguments.seed,
+        sigma_px=revision.corner_noise_px,
+        fixed=revision.fixed,
+        zone=revision.working_zone,
+    )
+    document = _to_json({"sku": revision.code, "target": revision.target.spec, **pose_set_to_dict(pose_set)})
+    if arguments.out is not None:
+        _write(arguments.out, document)
+    if arguments.json:
+        _print(document)
+    else:
+        _print(plan_text(revision.code, pose_set))
+    return DONE
+
+
+def _add_migrate(parser: argparse.ArgumentParser) -> None:
+    _add_data_dir(parser)
+    parser.set_defaults(run=_migrate)
+
+
+def _migrate(arguments: argparse.Namespace) -> int:
+    with closing(Database.open(_settings(arguments).database_url)) as database:
+        before = revision_of(database)
+        upgrade(database)
+        after = revision_of(database)
+    _print(f"The database was at revision {before or 'none'} and is at {after}.")
+    return DONE
+
+
+def _add_keys(parser: argparse.ArgumentParser) -> None:
+    verbs = parser.add_subparsers(required=True, metavar="COMMAND")
+    add = verbs.add_parser("add", help="make a key; it is printed this once")
+    add.add_argument("name", help="whose key it is")
+    add.add_argument("--role", required=True, choices=[role.value for role in Role])
+    add.set_defaults(run=_add_key)
+    listing = verbs.add_parser("list", help="list the keys")
+    listing.set_defaults(run=_list_keys)
+    revoke = verbs.add_parser("revoke", help="make a key worthless at once")
+    revoke.add_argument("id", help="the key's id, as `keys list` prints it")
+    revoke.set_defaults(run=_revoke_key)
+    for verb in (add, listing, revoke):
+        _add_data_dir(verb)
+
+
+def _add_key(arguments: argparse.Namespace) -> int:
+    with _database(arguments) as database, database.write() as session:
+        made = create_key(session, arguments.name, Role(arguments.role), WHO, SystemClock().now())
+    # The key alone goes to stdout, so that a script can take it.
+    sys.stderr.write(f"Key of '{made.name}', role {made.role.value}, id {made.id}. It is shown this once.\n")
+    _print(made.key)
+    return DONE
+
+
+def _list_keys(arguments: argparse.Namespace) -> int:
+    with _database(arguments) as database, database.read() as session:
+        keys = list_keys(session, PageRequest(limit=KEYS_SHOWN)).items
+    for key in keys:
+        state = "revoked" if key.revoked_at else "valid"
+        _print(
+            f"{key.id}  {key.role.value:<9} {state:<8} {key.created_at:%Y-%m-%d}  {key.prefix}  {key.name}"
+        )
+    return DONE
+
+
+def _revoke_key(arguments: argparse.Namespace) -> int:
+    try:
+        key_id = UUID(arguments.id)
+    except ValueError as error:
+        raise BadRequest(f"'{arguments.id}' is no key id; `dmscal keys list` prints the ids.") from error
+    with _database(arguments) as database, database.write() as session:
+        row = revoke_key(session, key_id, WHO, SystemClock().now())
+    _print(f"The key of '{row.name}' is revoked.")
+    return DONE
+
+
+def _version(arguments: argparse.Namespace) -> int:
+    _print(f"{arguments.program} {__version__}")
+    return DONE
+
+
+def _add_data_dir(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--data-dir", type=Path, help="directory of database and images (else DMSCAL_DATA_DIR)"
+    )
+
+
+def _settings(arguments: argparse.Namespace) -> Settings:
+    """Return the settings of the environment; raises BadRequest naming those that are wrong."""
+    try:
+        settings = Settings()
+    except ValidationError as error:
+        wrong = "; ".join(f"{'.'.join(map(str, one['loc']))}: {one['msg']}" for one in error.errors())
+        raise BadRequest(f"Correct these settings (DMSCAL_...): {wrong}.") from error
+    return settings if arguments.data_dir is None else settings.in_directory(arguments.data_dir)
+
+
+@contextmanager
+def _database(arguments: argparse.Namespace) -> Iterator[Database]:
+    """Yield the database of the settings; raises DatabaseOutdated unless it was migrated."""
+    with closing(Database.open(_settings(arguments).database_url)) as database:
+        check_at_head(database)
+        yield database
+
+
+def _tell(error: ServiceError, *, as_json: bool) -> int:
+    if as_json:
+        problem = {
+            "type": f"/problems/{error.code}",
+            "status": int(status_of(type(error))),
+            **problem_body(error),
+        }
+        _print(_to_json(problem))
+    else:
+        sys.stderr.write(f"{error.title}: {error.detail}\n")
+    return BAD_INPUT
+
+
+def _to_json(document: dict[str, Any]) -> str:
+    return json.dumps(document, indent=2, allow_nan=False)
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(f"{text}\n", encoding="utf-8")
+    except OSError as error:
+        raise BadRequest(f"'{path}' cannot be written: {error.strerror}. Choose another --out.") from error
+
+
+def _print(text: str) -> None:
+    # A file name may hold what the terminal cannot show; that must not lose the report.
+    encoding = sys.stdout.encoding or "ascii"
+    sys.stdout.write(text.encode(encoding, "backslashreplace").decode(encoding) + "\n")
