@@ -14,13 +14,21 @@ def _python_files() -> Iterator[Path]:
 
 
 def test_no_python_file_is_longer_than_400_lines() -> None:
-    long = {str(path.relative_to(ROOT)): n for path in _python_files() if (n := len(path.read_text().splitlines())) > 400}
+    long = {
+        str(path.relative_to(ROOT)): n
+        for path in _python_files()
+        if (n := len(path.read_text().splitlines())) > 400
+    }
 
     assert long == {}
 
 
 def test_no_page_source_is_longer_than_400_lines() -> None:
-    sources = [p for p in (ROOT / "web" / "src").rglob("*") if p.suffix in {".ts", ".tsx", ".css"} and "generated" not in p.parts]
+    sources = [
+        p
+        for p in (ROOT / "web" / "src").rglob("*")
+        if p.suffix in {".ts", ".tsx", ".css"} and "generated" not in p.parts
+    ]
 
     assert sources
     assert [str(p.relative_to(ROOT)) for p in sources if len(p.read_text().splitlines()) > 400] == []
@@ -32,7 +40,8 @@ def test_no_function_is_longer_than_50_lines() -> None:
         for path in _python_files()
         if "versions" not in path.parts  # a migration lists its tables one after the other
         for node in ast.walk(ast.parse(path.read_text()))
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and (node.end_lineno or 0) - node.lineno >= 50
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+        and (node.end_lineno or 0) - node.lineno >= 50
     ]
 
     assert long == []

@@ -1,0 +1,33 @@
+"""A virtual vehicle of a SKU: a camera within its tolerance, and its pictures at the prescribed poses."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.camera import Intrinsics
+from service.core.vision.target import parse_target
+from service.core.vision.transforms import Pose
+from service.simulator.renderer import prepare
+from service.simulator.scene import production_scene
+from service.simulator.vehicle import Mismatch, Tolerance, draw_camera, take_captures
+
+
+def draw_vehicle(sku: Mapping[str, Any], rng: np.random.Generator) -> Intrinsics:
+    """Return the true intrinsics of one camera of a SKU document."""
+    width, height = sku["image_size"]
+    nominal = Intrinsics.from_parameters(sku["lens"], sku["nominal"], (width, height))
+    return draw_camera(nominal, Tolerance(), rng)
+
+
+def photograph(
+    camera: Intrinsics, sku: Mapping[str, Any], poses: Sequence[Mapping[str, Any]], seed: int
+) -> Iterator[NDArray[np.uint8]]:
+    """Yield the picture (h, w) that a hand takes at each prescribed pose, each a little off it."""
+    prepared = prepare(production_scene(camera, parse_target(sku["target"]), seed))
+    rng = np.random.default_rng(seed)
+    for pose in poses:
+        wanted = Pose(np.array(pose["rvec"]), np.array(pose["tvec"]))
+        for capture in take_captures(prepared, [wanted], Mismatch(), rng):
+            yield capture.image
