@@ -18,27 +18,34 @@ POSTGRESQL_TURN = "SELECT pg_advisory_xact_lock(110400106389868)"
 
 def run(connection: Connection) -> None:
     """Run the command in one transaction."""
-    is_sqlite = connection.dialect.name == "sqlite"
-    if is_sqlite:
-        # Batch mode replaces tables that others refer to; inside a transaction this would have no effect.
-        _pragma(connection, "foreign_keys=OFF")
+    if connection.dialect.name != "sqlite":
+        with connection.begin():
+            connection.exec_driver_sql("SET LOCAL lock_timeout = '30s'")
+            connection.exec_driver_sql(POSTGRESQL_TURN)
+            migrate(connection)
+        return
+    # Batch mode replaces tables that others refer to; inside the transaction this would have no effect.
+    _pragma(connection, "foreign_keys=OFF")
+    try:
+        with connection.begin():
+            migrate(connection)
+            if connection.exec_driver_sql("PRAGMA foreign_key_check").first():
+                raise RuntimeError(
+                    "the migration would leave rows that refer to nothing; nothing was changed"
+                )
+    finally:
+        _pragma(connection, "foreign_keys=ON")
+
+
+def migrate(connection: Connection) -> None:
+    """Run the revisions on a connection that is in a transaction."""
     context.configure(
         connection=connection,
         target_metadata=Row.metadata,
-        render_as_batch=is_sqlite,
-        compare_type=True,
+        render_as_batch=connection.dialect.name == "sqlite",
         render_item=render,
-        transaction_per_migration=False,
     )
-    with context.begin_transaction():
-        if not is_sqlite:
-            connection.exec_driver_sql("SET LOCAL lock_timeout = '30s'")
-            connection.exec_driver_sql(POSTGRESQL_TURN)
-        context.run_migrations()
-        if is_sqlite and connection.exec_driver_sql("PRAGMA foreign_key_check").first():
-            raise RuntimeError("the migration would leave rows that refer to nothing; nothing was changed")
-    if is_sqlite:
-        _pragma(connection, "foreign_keys=ON")
+    context.run_migrations()
 
 
 def render(kind: str, item: object, _context: AutogenContext) -> str | Literal[False]:

@@ -22,7 +22,7 @@ from service.storage.sqlite import WriterLock, check_path, create_reader, create
 log = logging.getLogger(__name__)
 
 # A lock that is not had in time is a busy database and not a request that hangs.
-POSTGRESQL_OPTIONS = "-c timezone=utc -c lock_timeout=10s -c idle_in_transaction_session_timeout=120s"
+POSTGRESQL_OPTIONS = "-c timezone=utc -c idle_in_transaction_session_timeout=120s -c lock_timeout={lock_ms}"
 
 
 class Database:
@@ -34,31 +34,37 @@ class Database:
         self._lock = lock
 
     @classmethod
-    def open(cls, address: str) -> Self:
-        """Return the database at `address`; connects at first use. Raises DatabaseUnreachable."""
+    def open(cls, address: str, busy_s: float = 30.0) -> Self:
+        """Return the database at `address`; connects at first use. Raises DatabaseUnreachable.
+
+        busy_s: how long to wait for other writers before DatabaseBusy.
+        """
         url = make_url(address)
-        database = cls._open_sqlite(url) if url.get_backend_name() == "sqlite" else cls._open_postgresql(url)
+        is_sqlite = url.get_backend_name() == "sqlite"
+        database = cls._open_sqlite(url, busy_s) if is_sqlite else cls._open_postgresql(url, busy_s)
         raise_domain_errors(database.writer)
         if database.reader is not database.writer:
             raise_domain_errors(database.reader)
         return database
 
     @classmethod
-    def _open_sqlite(cls, url: URL) -> Self:
+    def _open_sqlite(cls, url: URL, busy_s: float) -> Self:
         path = check_path(url)
         log.info("SQLite %s at %s", sqlite3.sqlite_version, path)
         lock = WriterLock(path.with_name(f"{path.name}.writer"))
-        return cls(create_writer(url, lock), create_reader(url), lock)
+        return cls(create_writer(url, lock, busy_s), create_reader(url, busy_s), lock)
 
     @classmethod
-    def _open_postgresql(cls, url: URL) -> Self:
+    def _open_postgresql(cls, url: URL, busy_s: float) -> Self:
+        options = POSTGRESQL_OPTIONS.format(lock_ms=round(busy_s * 1000))
         writer = create_engine(
             url,
             json_serializer=to_json,
             pool_pre_ping=True,
             pool_size=10,
             max_overflow=30,
-            connect_args={"connect_timeout": 5, "application_name": "dmscal", "options": POSTGRESQL_OPTIONS},
+            pool_timeout=busy_s,
+            connect_args={"connect_timeout": 5, "application_name": "dmscal", "options": options},
         )
         reader = writer.execution_options(isolation_level="REPEATABLE READ", postgresql_readonly=True)
         return cls(writer, reader)
@@ -86,7 +92,8 @@ class Database:
     def check(self) -> None:
         """Raise Unavailable unless the database answers."""
         with self.read() as session:
-            session.execute(text("SELECT 1"))
+            # SQLite answers SELECT 1 without looking at its file.
+            session.execute(text("PRAGMA schema_version" if self.is_sqlite else "SELECT 1"))
 
     def close(self) -> None:
         """Close all connections, the writing one last: it merges the write-ahead log."""

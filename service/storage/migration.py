@@ -29,7 +29,16 @@ def alembic_config(connection: Connection | None = None) -> Config:
 
 
 def upgrade(database: Database) -> None:
-    """Bring the tables to the newest revision, in one transaction; nothing to do is fine."""
+    """Bring the tables to the newest revision, in one transaction; nothing to do is fine.
+
+    Raises DatabaseOutdated for a database that a newer service has written.
+    """
+    known = {script.revision for script in ScriptDirectory.from_config(alembic_config()).walk_revisions()}
+    if (found := revision_of(database)) not in {None, *known}:
+        raise DatabaseOutdated(
+            f"The database is at revision {found}, which a newer service has made. Install that one.",
+            found=found,
+        )
     with database.writer.connect() as connection:
         command.upgrade(alembic_config(connection), "head")
 

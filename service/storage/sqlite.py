@@ -18,7 +18,6 @@ from sqlalchemy.pool import ConnectionPoolEntry, PoolProxiedConnection
 from service.core.errors import DatabaseBusy, DatabaseUnreachable
 from service.storage.columns import to_json
 
-BUSY_S = 30.0
 READERS = 8
 READER_QUEUE = 64
 LARGEST_IDLE_LOG = 64 << 20
@@ -30,7 +29,7 @@ class WriterLock:
     """A lock between processes, on a file that is never removed."""
 
     def __init__(self, path: Path) -> None:
-        self._file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        self._file: int | None = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
 
     def acquire(self, timeout_s: float) -> None:
         """Wait until no other process writes; raises DatabaseBusy."""
@@ -41,6 +40,8 @@ class WriterLock:
             time.sleep(0.002)
 
     def _try(self) -> bool:
+        if self._file is None:
+            raise DatabaseUnreachable("The database was closed: the service is stopping.")
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -49,11 +50,14 @@ class WriterLock:
 
     def release(self) -> None:
         """Let the next process write."""
-        fcntl.flock(self._file, fcntl.LOCK_UN)
+        if self._file is not None:
+            fcntl.flock(self._file, fcntl.LOCK_UN)
 
     def close(self) -> None:
         """Forget the lock; it is released with its file."""
-        os.close(self._file)
+        if self._file is not None:
+            os.close(self._file)
+            self._file = None
 
 
 def check_path(url: URL) -> Path:
@@ -66,20 +70,20 @@ def check_path(url: URL) -> Path:
     return path
 
 
-def create_writer(url: URL, lock: WriterLock) -> Engine:
+def create_writer(url: URL, lock: WriterLock, busy_s: float) -> Engine:
     """Return the engine of the one writing connection; whoever wants it next waits for it."""
     engine = create_engine(
         url,
         json_serializer=to_json,
         pool_size=1,
         max_overflow=0,
-        pool_timeout=BUSY_S,
-        connect_args={"check_same_thread": False, "timeout": BUSY_S},
+        pool_timeout=busy_s,
+        connect_args={"check_same_thread": False, "timeout": busy_s},
     )
 
     @event.listens_for(engine, "connect")
     def configure(connection: sqlite3.Connection, _record: ConnectionPoolEntry) -> None:
-        lock.acquire(BUSY_S)
+        lock.acquire(busy_s)
         try:
             _set(
                 connection,
@@ -95,7 +99,7 @@ def create_writer(url: URL, lock: WriterLock) -> Engine:
     def take(
         _connection: sqlite3.Connection, _record: ConnectionPoolEntry, _proxy: PoolProxiedConnection
     ) -> None:
-        lock.acquire(BUSY_S)
+        lock.acquire(busy_s)
 
     @event.listens_for(engine, "checkin")
     def give_back(_connection: sqlite3.Connection | None, _record: ConnectionPoolEntry) -> None:
@@ -108,15 +112,15 @@ def create_writer(url: URL, lock: WriterLock) -> Engine:
     return engine
 
 
-def create_reader(url: URL) -> Engine:
+def create_reader(url: URL, busy_s: float) -> Engine:
     """Return the engine of the reading connections; each transaction sees one state of the database."""
     engine = create_engine(
         url,
         json_serializer=to_json,
         pool_size=READERS,
         max_overflow=READER_QUEUE - READERS,
-        pool_timeout=BUSY_S,
-        connect_args={"check_same_thread": False, "timeout": BUSY_S},
+        pool_timeout=busy_s,
+        connect_args={"check_same_thread": False, "timeout": busy_s},
     )
 
     @event.listens_for(engine, "connect")
