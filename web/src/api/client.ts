@@ -1,0 +1,59 @@
+// The only place that talks to the service: adds the key, turns every failure into a Problem.
+import { reportReached, reportUnreached } from "./connection";
+import { dropRefusedKey, key } from "./key";
+import { meansUnreachable, mustAskForKey, problemFrom, RequestFailed, UNREACHABLE } from "./problem";
+import { ROOT, runsPath, type RunsQuery } from "./paths";
+import type { CaptureDetail, PageRunSummary, RunDetail, Vehicle } from "../generated/api";
+
+async function request(path: string, signal?: AbortSignal): Promise<Response> {
+  let answer: Response;
+  try {
+    answer = await fetch(path, {
+      headers: { Authorization: `Bearer ${key.value ?? ""}` },
+      ...(signal && { signal }),
+    });
+  } catch (error) {
+    if (signal?.aborted) throw error;
+    reportUnreached();
+    throw new RequestFailed(UNREACHABLE);
+  }
+  if (answer.ok) {
+    reportReached();
+    return answer;
+  }
+  return refuse(answer);
+}
+
+async function refuse(answer: Response): Promise<never> {
+  const problem = problemFrom(answer.status, await answer.json().catch(() => null));
+  if (meansUnreachable(problem)) reportUnreached();
+  else reportReached();
+  if (mustAskForKey(problem)) dropRefusedKey(problem.detail);
+  throw new RequestFailed(problem);
+}
+
+async function getJson<T>(path: string, signal?: AbortSignal): Promise<T> {
+  const answer = await request(path, signal);
+  return (await answer.json()) as T;
+}
+
+export function getRuns(query: RunsQuery, signal?: AbortSignal): Promise<PageRunSummary> {
+  return getJson(runsPath(query), signal);
+}
+
+export function getRun(id: string, signal?: AbortSignal): Promise<RunDetail> {
+  return getJson(`${ROOT}/runs/${encodeURIComponent(id)}`, signal);
+}
+
+export function getCapture(id: string, signal?: AbortSignal): Promise<CaptureDetail> {
+  return getJson(`${ROOT}/captures/${encodeURIComponent(id)}`, signal);
+}
+
+export function getVehicle(serial: string, signal?: AbortSignal): Promise<Vehicle> {
+  return getJson(`${ROOT}/vehicles/${encodeURIComponent(serial)}`, signal);
+}
+
+/** Images need the key too, so an <img src> cannot fetch them: they come as blobs. */
+export async function getImage(url: string): Promise<Blob> {
+  return (await request(url)).blob();
+}

@@ -1,0 +1,33 @@
+// The dashboard: asks for a key where there is none, else shows the page of the address.
+import { type JSX } from "preact";
+import { key } from "../api/key";
+import { Header, OfflineBar } from "../shell/header";
+import { KeyForm } from "../shell/key_form";
+import { route } from "./address";
+import type { Route } from "./route";
+import { RunPage } from "./run_page";
+import { RunsPage } from "./runs_page";
+import { VehiclePage } from "./vehicle_page";
+
+export function App(): JSX.Element {
+  return (
+    <>
+      <Header />
+      <OfflineBar />
+      <main id="content" tabIndex={-1}>
+        {key.value === null ? <KeyForm /> : <Page route={route.value} />}
+      </main>
+    </>
+  );
+}
+
+function Page({ route: to }: { route: Route }): JSX.Element {
+  switch (to.page) {
+    case "run":
+      return <RunPage id={to.id} />;
+    case "vehicle":
+      return <VehiclePage serial={to.serial} />;
+    case "runs":
+      return <RunsPage serial={to.serial} />;
+  }
+}

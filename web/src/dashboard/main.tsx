@@ -1,0 +1,20 @@
+// Entry of dashboard.html: what must be known before the first drawing, then the drawing.
+import "../look/tokens.css";
+import "../look/page.css";
+import "../look/tables.css";
+import "../look/run.css";
+import { render } from "preact";
+import { takeKeyFromAddress } from "../api/key";
+import { showFirstTheme } from "../look/theme";
+import { speakFirstLanguage } from "../words/language";
+import { App } from "./app";
+import { followAddress } from "./address";
+
+takeKeyFromAddress();
+showFirstTheme();
+speakFirstLanguage();
+followAddress();
+
+const place = document.getElementById("app");
+if (place === null) throw new Error("dashboard.html has no element with id app");
+render(<App />, place);

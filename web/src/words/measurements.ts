@@ -1,0 +1,40 @@
+// Names of measurements and gates in words. A name that is not listed (a newer service) is shown as it came.
+import type { Words } from "./en";
+import type { Language } from "./language";
+
+type Name = Record<Language, string>;
+
+const NAMES: Readonly<Record<string, Name>> = {
+  parity_separation: { en: "Black and white apart", de: "Abstand Schwarz–Weiß" },
+  contrast: { en: "Contrast", de: "Kontrast" },
+  edge_width_px: { en: "Edge width 10–90 %", de: "Kantenbreite 10–90 %" },
+  quadrant_ratio: { en: "Worst quadrant / centre", de: "Schlechtester Quadrant / Mitte" },
+  match_share: { en: "Match to the asked pose", de: "Abweichung von der Sollpose" },
+  view_separation_px: { en: "Distance of nearest views", de: "Abstand der nächsten Ansichten" },
+  coverage: { en: "Coverage of the zone", de: "Abdeckung der Zone" },
+  rms_px: { en: "RMS error", de: "RMS-Fehler" },
+  smallest_rms_px: { en: "RMS plausible", de: "RMS plausibel" },
+  worst_view_ratio: { en: "Worst / median view", de: "Schlechteste / mittlere Ansicht" },
+  outlier_share: { en: "Outliers beyond 4σ", de: "Ausreißer über 4σ" },
+  focal_sd_share: { en: "sd of focal length", de: "Std.-Abw. Brennweite" },
+  centre_sd_px: { en: "sd of principal point", de: "Std.-Abw. Bildhauptpunkt" },
+  zone_mapping_px: { en: "Mapping error, zone", de: "Abbildungsfehler, Zone" },
+  valid_mapping_px: { en: "Mapping error, worst", de: "Abbildungsfehler, größter" },
+  agreement_px: { en: "Agreement of starts", de: "Übereinstimmung der Starts" },
+  monotone_ratio: { en: "Distortion monotone to", de: "Verzeichnung monoton bis" },
+  square_pixels: { en: "|fx / fy − 1|", de: "|fx / fy − 1|" },
+};
+
+export function measurementName(name: string, language: Language): string {
+  return NAMES[name]?.[language] ?? name.replaceAll("_", " ");
+}
+
+export function gateName(gate: string, words: Words): string {
+  const text: unknown = (words as Record<string, unknown>)[`gate_${gate}`];
+  return typeof text === "string" ? text : gate;
+}
+
+export function purposeName(purpose: string, words: Words): string {
+  const text: unknown = (words as Record<string, unknown>)[`purpose_${purpose}`];
+  return typeof text === "string" ? text : purpose;
+}

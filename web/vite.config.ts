@@ -1,0 +1,21 @@
+import { defineConfig } from "vitest/config";
+
+const service = process.env["DMSCAL_DEV_SERVICE"] ?? "http://127.0.0.1:8000";
+
+export default defineConfig({
+  base: "/",
+  build: {
+    outDir: "dist",
+    emptyOutDir: true,
+    target: "es2022",
+    modulePreload: { polyfill: false },
+    assetsInlineLimit: 0,
+    rolldownOptions: { input: { dashboard: "dashboard.html" } },
+  },
+  oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
+  server: {
+    open: "/dashboard.html",
+    proxy: { "/api": service, "/livez": service, "/readyz": service, "/problems": service },
+  },
+  test: { include: ["src/**/*.test.ts", "scripts/**/*.test.ts"], environment: "node" },
+});
