@@ -39,8 +39,8 @@ class Tolerance:
 class Mismatch:
     """How far a hand is off a prescribed pose: half widths of uniform distributions per axis.
 
-    position_m: of the target's centre; angle_rad: of the rotation about each axis; margin_px: how far inside the
-    picture the hand keeps every corner, as it would see on its screen.
+    position_m: of the target's centre; angle_rad: of the rotation about each axis; margin_px: how far
+    inside the picture the hand keeps every corner, as its screen shows.
     """
 
     position_m: float = 0.003
@@ -80,8 +80,8 @@ def take_captures(
 def hold_board(scene: Scene, pose: Pose, mismatch: Mismatch, rng: np.random.Generator) -> Pose:
     """Return the pose a hand takes for a prescribed one.
 
-    A hand that loses a corner over the picture's border comes a little closer to the prescribed pose and tries
-    again; it ends at that pose if nothing else shows the whole target.
+    A hand that loses a corner over the picture's border comes a little closer to the prescribed pose and
+    tries again; it ends at that pose if nothing else shows the whole target.
     """
     for attempt in range(RETRIES):
         share = 0.9**attempt
