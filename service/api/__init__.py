@@ -1,0 +1,1 @@
+"""HTTP: parse, call one use case, answer. No SQL, no image processing, no decision about cameras."""

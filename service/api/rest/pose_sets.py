@@ -1,0 +1,151 @@
+"""Pose sets: the ordered poses that an operator is asked for; planned by a job or imported, then published."""
+
+from datetime import datetime
+from typing import Annotated, Any, Self
+from uuid import UUID
+
+from fastapi import APIRouter, Response
+from pydantic import Field, model_validator
+
+from service.api.auth import Engineer, Viewer
+from service.api.dependencies import Db, Now, Of, ReadDb
+from service.api.rest.jobs import Job
+from service.api.shapes import Answer, Id, Request, RevisionNumber, SkuCode
+from service.core.planning.scoring import Objective
+from service.storage.words import Publication
+from service.usecases import pose_sets
+from service.usecases.planning import PlanRequest
+
+router = APIRouter(tags=["Pose sets"])
+
+Coordinate = Annotated[float, Field(ge=-100, le=100)]
+Vector3 = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
+
+
+class PoseShape(Request):
+    """A pose of the board in the camera's frame (`T_cam_board`): rotation vector, rad, and translation, m."""
+
+    rvec: Vector3
+    tvec: Vector3
+
+
+class NewPoseSet(Request):
+    """How to plan, or the poses themselves: without any field the service plans with its defaults."""
+
+    seed: int = Field(default=0, ge=0, le=2**31 - 1, description="Same seed, same poses.")
+    candidates: int = Field(default=3000, ge=100, le=20000, description="Poses to choose from.")
+    objective: Objective = Field(
+        default="balanced",
+        description="What to make small: the paper's parameter norm, the mapping error, or both.",
+    )
+    poses: list[PoseShape] | None = Field(
+        default=None, min_length=3, max_length=100, description="Import these poses instead of planning."
+    )
+
+    model_config = {"json_schema_extra": {"examples": [{"seed": 1, "candidates": 3000}]}}
+
+    @model_validator(mode="after")
+    def _plans_or_imports(self) -> Self:
+        if self.poses is not None and self.model_fields_set & {"seed", "candidates", "objective"}:
+            raise ValueError("give either poses to import, or seed, candidates and objective to plan")
+        return self
+
+
+class PlannedPose(Answer):
+    """A pose to take, and where the four outermost corners of the board lie in the image then."""
+
+    rvec: tuple[float, float, float]
+    tvec: tuple[float, float, float]
+    outer_corners: list[tuple[float, float]] = Field(
+        description="tl, tr, br, bl in the board's own order, px."
+    )
+
+
+class PoseSetSku(Answer):
+    """Which revision of which SKU."""
+
+    code: str
+    revision: int
+
+
+class PredictedMapping(Answer):
+    """Expected error of the mapping from rays to pixels over the planned zone, px."""
+
+    mean_px: float
+    worst_px: float
+
+
+class PredictedDiversity(Answer):
+    """How much the poses differ: spreads of their tilts, ratio of distances, share of the image that corners cover."""
+
+    pitch_spread_deg: float
+    yaw_spread_deg: float
+    distance_ratio: float
+    coverage: float
+
+
+class Prediction(Answer):
+    """The accuracy that a set promises at the SKU's corner noise, before anybody lifts a board."""
+
+    norm_px: float = Field(description="Expected norm of the parameters' error, the paper's measure.")
+    sd: dict[str, float] = Field(description="Expected standard deviation by parameter; 0 for fixed ones.")
+    mapping: PredictedMapping
+    condition: float
+    diversity: PredictedDiversity
+
+
+class PoseSet(Answer):
+    """An ordered set of poses. `poses` is empty as long as the job plans."""
+
+    id: UUID
+    sku: PoseSetSku
+    state: Publication
+    poses: list[PlannedPose]
+    prediction: Prediction | None = Field(description="What the set promises; null while it is planned.")
+    provenance: dict[str, Any] = Field(description="Where the set comes from, so that it can be made again.")
+    job_id: UUID | None
+    created_at: datetime
+    published_at: datetime | None
+
+
+class PoseSetRequested(Answer):
+    """A pose set, and the job that plans it (null for an imported one)."""
+
+    pose_set: PoseSet
+    job: Job | None
+
+
+@router.post(
+    "/skus/{code}/revisions/{number}/pose-sets", status_code=202, summary="Plan or import a pose set"
+)
+def create_pose_set(
+    code: SkuCode,
+    number: RevisionNumber,
+    body: NewPoseSet,
+    caller: Engineer,
+    db: Db,
+    of: Of,
+    now: Now,
+    response: Response,
+) -> PoseSetRequested:
+    """Plan the best poses for a revision in the background (202: follow the job), or import poses (201)."""
+    if body.poses is not None:
+        response.status_code = 201
+        poses = [(pose.rvec, pose.tvec) for pose in body.poses]
+        made = pose_sets.import_pose_set(db, code, number, poses, caller.name, now)
+    else:
+        plan = PlanRequest(body.seed, body.candidates, body.objective)
+        made = pose_sets.request_pose_set(db, of.jobs, code, number, plan, caller.name, now)
+    return PoseSetRequested.model_validate(made)
+
+
+@router.get("/pose-sets/{pose_set_id}", summary="Read a pose set")
+def read_pose_set(pose_set_id: Id, caller: Viewer, db: ReadDb) -> PoseSet:
+    """Read a pose set with its poses and what accuracy it promises."""
+    return PoseSet.model_validate(pose_sets.read_pose_set(db, pose_set_id))
+
+
+@router.post("/pose-sets/{pose_set_id}/publish", summary="Publish a pose set")
+def publish_pose_set(pose_set_id: Id, caller: Engineer, db: Db, now: Now) -> PoseSet:
+    """Publish a planned set: new runs of its SKU revision follow it, and the set before is retired."""
+    return PoseSet.model_validate(pose_sets.publish_pose_set(db, pose_set_id, caller.name, now))

@@ -1,0 +1,122 @@
+"""Runs: one calibration of one camera of one vehicle, from opening to its verdict."""
+
+from datetime import datetime
+from typing import Annotated
+from uuid import UUID
+
+from fastapi import APIRouter, Query
+from fastapi.responses import JSONResponse
+from pydantic import Field
+
+from service.api.auth import Mes, Operator, Viewer
+from service.api.dependencies import Db, Now, Of, PageOf, ReadDb
+from service.api.idempotency import IdempotencyKey, answer_once
+from service.api.rest.captures import Capture
+from service.api.rest.results import Result
+from service.api.shapes import Answer, Id, Page, Request
+from service.core.quality.gates import Verdict
+from service.core.run import Outcome, Purpose, RunState
+from service.usecases import finish, runs
+from service.usecases.text import Code
+
+router = APIRouter(prefix="/runs", tags=["Runs"])
+
+
+class NewRun(Request):
+    """A run to open."""
+
+    sku: Code = Field(description="Code of the SKU; its published revision is used.")
+    serial: str = Field(
+        max_length=200, description="Serial of the vehicle or camera: 1 to 64 printable characters."
+    )
+    station: Code | None = Field(default=None, description="Code of the station.")
+    purpose: Purpose = Field(default=Purpose.PRODUCTION, strict=False)
+
+    model_config = {
+        "json_schema_extra": {"examples": [{"sku": "lens1", "serial": "VIN-0001", "purpose": "production"}]}
+    }
+
+
+class RunSku(Answer):
+    """Which revision of which SKU."""
+
+    code: str
+    revision: int
+
+
+class RunSummary(Answer):
+    """A run in a list."""
+
+    id: UUID
+    serial: str
+    sku: RunSku
+    station: str | None = Field(description="Code of the station.")
+    purpose: Purpose
+    state: RunState
+    verdict: Verdict | None = Field(description="Judgement on the camera; null until the run is finished.")
+    outcome: Outcome | None = Field(description="How the run ended; null while it is open.")
+    captures: int
+    poses: int = Field(description="How many poses the run's pose set asks for; 0 without one.")
+    rms_px: float | None
+    created_at: datetime
+    finished_at: datetime | None
+
+
+class RunDetail(RunSummary):
+    """A run with its images and, once finished, its result."""
+
+    pose_set_id: UUID | None
+    capture_list: list[Capture]
+    result: Result | None
+
+
+@router.post("", status_code=201, summary="Open a run", response_model=RunDetail)
+def create_run(body: NewRun, caller: Mes, db: Db, now: Now, key: IdempotencyKey = None) -> JSONResponse:
+    """Open a run on the SKU's published revision and its published pose set.
+
+    Send an `Idempotency-Key` (any unique text): when an answer was lost, the same request with the same key opens no
+    second run and gets the first answer again, marked with `Idempotency-Replayed: true`.
+    """
+    order = runs.Order(body.sku, body.serial, body.station, body.purpose)
+    return answer_once(
+        db,
+        key,
+        caller,
+        now,
+        body,
+        lambda: RunDetail.model_validate(runs.open_run(db, order, caller.name, now)),
+    )
+
+
+@router.get("", summary="List runs")
+def list_runs(
+    caller: Viewer,
+    db: ReadDb,
+    page: PageOf,
+    serial: Annotated[
+        str | None, Query(max_length=64, description="Only runs of exactly this serial.")
+    ] = None,
+) -> Page[RunSummary]:
+    """List runs, newest first."""
+    return Page[RunSummary].model_validate(runs.list_runs(db, page, serial))
+
+
+@router.get("/{run_id}", summary="Read a run")
+def read_run(run_id: Id, caller: Viewer, db: ReadDb) -> RunDetail:
+    """Read a run with its captures and its result."""
+    return RunDetail.model_validate(runs.read_run(db, run_id))
+
+
+@router.post("/{run_id}/finish", summary="Finish a run")
+def finish_run(run_id: Id, caller: Operator, of: Of, now: Now) -> Result:
+    """Calibrate from the captures, judge by the SKU's gates and store the result, before it is answered.
+
+    A camera that fails is a result with the verdict FAIL, not an error. With too few usable views the run stays open.
+    """
+    return Result.model_validate(finish.finish_run(of.database, run_id, caller.name, now))
+
+
+@router.post("/{run_id}/abort", summary="Abort a run")
+def abort_run(run_id: Id, caller: Operator, db: Db, now: Now) -> RunDetail:
+    """End an open run without a result. Its images stay; a new run starts afresh."""
+    return RunDetail.model_validate(runs.abort_run(db, run_id, caller.name, now))

@@ -1,0 +1,102 @@
+"""SKUs and their revisions: draft, published (never edited again), retired."""
+
+from datetime import datetime
+from typing import Annotated
+from uuid import UUID
+
+from fastapi import APIRouter, Body
+
+from service.api.auth import Engineer, Viewer
+from service.api.dependencies import Db, Now, PageOf, ReadDb
+from service.api.shapes import Answer, Page, RevisionNumber, SkuCode
+from service.storage.words import Publication
+from service.usecases import skus
+from service.usecases.sku_document import SkuDocument
+
+router = APIRouter(prefix="/skus", tags=["SKUs"])
+
+LENS1 = {
+    "code": "lens1",
+    "name": "DMS IR, 80 degrees",
+    "lens": "pinhole5",
+    "image_size": [1280, 800],
+    "nominal": {"fx": 1350.1, "fy": 1352.1, "cx": 657.6, "cy": 383.8, "k1": -0.3774, "k2": 0.2425},
+    "target": "chessboard:9x6:25mm",
+    "pose_count": 12,
+    "pose_space": {"distance_m": [0.25, 1.0], "yaw_deg": [-45, 45], "pitch_deg": [-45, 45]},
+    "corner_noise_px": 0.1,
+}
+DocumentBody = Annotated[SkuDocument, Body(examples=[LENS1])]
+
+
+class SkuRevision(Answer):
+    """One revision of a SKU; only a draft can still change, by being replaced with a new revision."""
+
+    id: UUID
+    sku_id: UUID
+    number: int
+    state: Publication
+    document: SkuDocument
+    created_at: datetime
+    published_at: datetime | None
+
+
+class Sku(Answer):
+    """A camera variant, with the numbers of its revisions that count."""
+
+    id: UUID
+    code: str
+    name: str
+    latest_revision: int
+    published_revision: int | None
+    created_at: datetime
+
+
+class SkuDetail(Sku):
+    """A camera variant with its revisions, newest first."""
+
+    revisions: list[SkuRevision]
+
+
+@router.post("", status_code=201, summary="Create a SKU")
+def create_sku(body: DocumentBody, caller: Engineer, db: Db, now: Now) -> SkuDetail:
+    """Create a camera variant with its first revision, a draft. Publish the revision before runs use it."""
+    return SkuDetail.model_validate(skus.create_sku(db, body, caller.name, now))
+
+
+@router.get("", summary="List the SKUs")
+def list_skus(caller: Viewer, db: ReadDb, page: PageOf) -> Page[Sku]:
+    """List the camera variants, newest first."""
+    return Page[Sku].model_validate(skus.list_skus(db, page))
+
+
+@router.get("/{code}", summary="Read a SKU")
+def read_sku(code: SkuCode, caller: Viewer, db: ReadDb) -> SkuDetail:
+    """Read a camera variant and its revisions."""
+    return SkuDetail.model_validate(skus.read_sku(db, code))
+
+
+@router.post("/{code}/revisions", status_code=201, summary="Add a revision")
+def create_revision(code: SkuCode, body: DocumentBody, caller: Engineer, db: Db, now: Now) -> SkuRevision:
+    """Add a draft. Published revisions are never edited: every change of a SKU is a new revision."""
+    return SkuRevision.model_validate(skus.add_revision(db, code, body, caller.name, now))
+
+
+@router.get("/{code}/revisions", summary="List the revisions")
+def list_revisions(code: SkuCode, caller: Viewer, db: ReadDb, page: PageOf) -> Page[SkuRevision]:
+    """List the revisions of a camera variant, newest first."""
+    return Page[SkuRevision].model_validate(skus.list_revisions(db, code, page))
+
+
+@router.get("/{code}/revisions/{number}", summary="Read a revision")
+def read_revision(code: SkuCode, number: RevisionNumber, caller: Viewer, db: ReadDb) -> SkuRevision:
+    """Read one revision with its whole document."""
+    return SkuRevision.model_validate(skus.get_revision(db, code, number))
+
+
+@router.post("/{code}/revisions/{number}/publish", summary="Publish a revision")
+def publish_revision(
+    code: SkuCode, number: RevisionNumber, caller: Engineer, db: Db, now: Now
+) -> SkuRevision:
+    """Publish a draft: new runs use it from now on, and the revision that was published before is retired."""
+    return SkuRevision.model_validate(skus.publish_revision(db, code, number, caller.name, now))

@@ -1,0 +1,109 @@
+"""Composition root of the service: builds database, image store, jobs and routes from settings, and ends them in order.
+
+Nothing is opened before the application starts, so that it can be described without a data directory.
+"""
+
+import logging
+import sys
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager
+from pathlib import Path
+
+from anyio import to_thread
+from fastapi import FastAPI
+
+from service.adapters.blobs_files import FileBlobs
+from service.adapters.clock_system import SystemClock
+from service.adapters.jobs_threads import ThreadJobs
+from service.api.application import create_api
+from service.api.dependencies import Services
+from service.ports import Clock
+from service.settings import Settings
+from service.storage.database import Database
+from service.storage.migration import check_at_head, upgrade
+from service.usecases.access import create_first_key
+from service.usecases.planning import PLAN_POSE_SET, plan_pose_set_job
+
+log = logging.getLogger(__name__)
+
+
+def create_app(settings: Settings) -> FastAPI:
+    """Return the application of these settings; it opens what it needs when it is started."""
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        database = await to_thread.run_sync(open_database, settings)
+        clock = SystemClock()
+        jobs = create_jobs(settings, database, clock)
+        try:
+            app.state.services = await to_thread.run_sync(create_services, settings, database, jobs, clock)
+            announce_first_key(database, clock, settings.data_dir)
+            if settings.jobs.in_service:
+                jobs.start()
+            yield
+        finally:
+            if settings.jobs.in_service:
+                await to_thread.run_sync(jobs.stop, settings.shutdown_grace_s)
+            database.close()
+
+    return create_api(lifespan, max_image_bytes=settings.max_upload_mb * 1_000_000)
+
+
+def create_app_from_environment() -> FastAPI:
+    """Return the application of the environment's settings, for servers that import it by name."""
+    return create_app(Settings())
+
+
+def open_database(settings: Settings) -> Database:
+    """Return the database at this version's tables.
+
+    The embedded one is brought there; a plant's is migrated on purpose, by `dmscal migrate`, for other replicas use it.
+    Raises DatabaseUnreachable, DatabaseOutdated.
+    """
+    database = Database.open(settings.database_url)
+    if database.is_sqlite:
+        upgrade(database)
+    check_at_head(database)
+    return database
+
+
+def create_jobs(settings: Settings, database: Database, clock: Clock) -> ThreadJobs:
+    """Return the queue of jobs with a handler for each kind; it is not started."""
+    return ThreadJobs(
+        database,
+        clock,
+        {PLAN_POSE_SET: plan_pose_set_job(database)},
+        threads=settings.jobs.threads,
+        poll_s=settings.jobs.poll_s,
+        stale_s=settings.jobs.stale_s,
+    )
+
+
+def create_services(settings: Settings, database: Database, jobs: ThreadJobs, clock: Clock) -> Services:
+    """Return what the routes use."""
+    blobs = FileBlobs.open(settings.blobs_url)
+    checks: Mapping[str, Callable[[], None]] = {
+        "database": database.check,
+        "schema": lambda: check_at_head(database),
+        "images": blobs.check,
+    }
+    if settings.jobs.in_service:
+        checks = {**checks, "jobs": jobs.check}
+    return Services(
+        database=database,
+        blobs=blobs,
+        jobs=jobs,
+        clock=clock,
+        max_image_pixels=settings.max_image_megapixels * 1_000_000,
+        checks=checks,
+    )
+
+
+def announce_first_key(database: Database, clock: Clock, data_dir: Path) -> None:
+    """On the first start of all, make an administrator's key and print it, this once."""
+    with database.write() as session:
+        made = create_first_key(session, clock.now())
+    if made is not None:
+        # Printed and not logged: logs are collected and kept.
+        sys.stdout.write(f"First API key (role admin) for {data_dir}, shown this once: {made.key}\n")
+        sys.stdout.flush()

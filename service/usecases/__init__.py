@@ -1,0 +1,1 @@
+"""What people want from the service, one module per goal: functions of a session, ports and plain values."""

@@ -1,0 +1,74 @@
+"""What the calibration of a run is made from, read from the database: corners as they were stored, and the SKU.
+
+The same input gives the same result to the last digit; images are not needed again.
+"""
+
+from dataclasses import dataclass
+from uuid import UUID
+
+import numpy as np
+from sqlalchemy import select
+from sqlalchemy.orm import Session
+
+from service.core.quality.evidence import Expectation, NamedDetection
+from service.core.quality.verdict import Judged, calibrate_and_judge
+from service.core.vision.detection import Detection
+from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.usecases.observation import pose_from_json, sharpness_from_json
+from service.usecases.sku_document import Revision, SkuDocument
+
+
+@dataclass(frozen=True)
+class CalibrationInput:
+    """The captures of a run in their order, what was detected in them, and what the SKU says."""
+
+    run_id: UUID
+    capture_ids: tuple[UUID, ...]
+    detections: tuple[NamedDetection, ...]
+    revision: Revision
+    expectation: Expectation
+
+
+def load_input(session: Session, run: RunRow) -> CalibrationInput:
+    """Return what the calibration of a run is made from."""
+    document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
+    revision = SkuDocument.model_validate(document).to_revision()
+    query = select(CaptureRow).where(CaptureRow.run_id == run.id).order_by(CaptureRow.number)
+    captures = list(session.scalars(query))
+    pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
+    expectation = Expectation(
+        nominal=revision.intrinsics,
+        limits=revision.limits,
+        working_zone=revision.working_zone,
+        valid_region=revision.valid_region,
+        poses=None if pose_set is None else tuple(pose_from_json(pose) for pose in pose_set.poses),
+        pose_of_view=None if pose_set is None else tuple(capture.pose_index for capture in captures),
+    )
+    ids = tuple(capture.id for capture in captures)
+    return CalibrationInput(run.id, ids, tuple(map(_detection, captures)), revision, expectation)
+
+
+def calibrate(source: CalibrationInput) -> Judged:
+    """Calibrate and judge; raises TooFewViews, DegenerateViews."""
+    revision = source.revision
+    return calibrate_and_judge(
+        source.detections,
+        revision.target,
+        revision.intrinsics.lens,
+        source.expectation,
+        fixed=revision.fixed,
+    )
+
+
+def _detection(capture: CaptureRow) -> NamedDetection:
+    width, height = capture.image_size
+    detection = Detection(
+        image_points=np.array(capture.corners, dtype=np.float64).reshape(-1, 2),
+        corner_ids=np.array(capture.corner_ids, dtype=np.int64),
+        image_size=(width, height),
+        sharpness=sharpness_from_json(capture.sharpness),
+        parity_separation=capture.parity_separation,
+        contrast=capture.contrast,
+    )
+    # Names are unique within a run even where stations send every image under the same file name.
+    return NamedDetection(f"{capture.number:02d} {capture.file_name}", detection, capture.sha256)

@@ -1,0 +1,198 @@
+"""Captures: accept an image into a run, show it, withdraw it.
+
+An image is accepted when it is what the SKU asks for: its size, its target, not in the run already. How well it meets
+its pose is reported here and judged by the gates when the run is finished. Slow work (decoding, detection, storing the
+image) is done between two transactions; the image is stored before its row, so that no row lacks its image.
+"""
+
+from dataclasses import dataclass
+from datetime import datetime
+from uuid import UUID
+
+from sqlalchemy import func, select
+from sqlalchemy.orm import Session
+
+from service.core.errors import DuplicateImage, NotFound, PoseIndexUnknown, PoseTaken
+from service.core.run import check_open
+from service.ports import BlobStore
+from service.storage.database import Database
+from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.usecases.audit import record
+from service.usecases.capture_views import CaptureDetailView, view_capture_detail
+from service.usecases.images import image_sha256
+from service.usecases.observation import (
+    Observation,
+    Picture,
+    Prescription,
+    observe,
+    pose_from_json,
+    pose_to_json,
+    sharpness_to_json,
+)
+from service.usecases.sku_document import SkuDocument
+
+
+@dataclass(frozen=True)
+class Accepted:
+    """A capture that is in the run, and whether this upload put it there."""
+
+    view: CaptureDetailView
+    is_new: bool
+
+
+def add_capture(
+    database: Database,
+    blobs: BlobStore,
+    run_id: UUID,
+    picture: Picture,
+    pose_index: int | None,
+    who: str,
+    now: datetime,
+) -> Accepted:
+    """Accept an image into a run; the same image for the same pose is accepted once and answered again.
+
+    Raises NotFound, RunAlreadyFinished, RunAborted, PoseIndexUnknown, PoseTaken, DuplicateImage, and what
+    `observe` raises.
+    """
+    sha256 = image_sha256(picture.content)
+    with database.read() as session:
+        known = _find_same(session, run_id, sha256, pose_index)
+        if known is not None:
+            return Accepted(known, is_new=False)
+        prescription = _prescription(session, run_id, pose_index)
+    observation = observe(picture, prescription)
+    blobs.put(picture.content)
+    with database.write() as session:
+        run = lock_open_run(session, run_id)
+        # The same image may have come in meanwhile, by a repeated request.
+        known = _find_same(session, run_id, sha256, pose_index)
+        if known is not None:
+            return Accepted(known, is_new=False)
+        row = _insert(session, run, picture, observation, sha256, pose_index, now)
+        record(session, now, who, "capture.add", f"run:{run_id}", number=row.number, sha256=sha256)
+        return Accepted(view_capture_detail(session, row), is_new=True)
+
+
+def get_capture(session: Session, capture_id: UUID) -> CaptureRow:
+    """Return a capture; raises NotFound."""
+    row = session.get(CaptureRow, capture_id)
+    if row is None:
+        raise NotFound("There is no capture of this id. Read its run to find it.", capture_id=str(capture_id))
+    return row
+
+
+def read_capture(session: Session, capture_id: UUID) -> CaptureDetailView:
+    """Return a capture with its corners; raises NotFound."""
+    return view_capture_detail(session, get_capture(session, capture_id))
+
+
+def withdraw_capture(session: Session, run_id: UUID, capture_id: UUID, who: str, now: datetime) -> None:
+    """Take a capture out of an open run; raises NotFound, RunAlreadyFinished, RunAborted.
+
+    The image stays in the store: it is kept under its content, which another run may hold too.
+    """
+    lock_open_run(session, run_id)
+    row = get_capture(session, capture_id)
+    if row.run_id != run_id:
+        raise NotFound(
+            "The run has no capture of this id. Read the run to find it.", capture_id=str(capture_id)
+        )
+    session.delete(row)
+    record(session, now, who, "capture.withdraw", f"run:{run_id}", number=row.number, sha256=row.sha256)
+
+
+def lock_open_run(session: Session, run_id: UUID) -> RunRow:
+    """Return an open run that nobody else changes in this transaction; raises NotFound and what `check_open` raises."""
+    run = session.get(RunRow, run_id, with_for_update=True)
+    if run is None:
+        raise NotFound(
+            "There is no run of this id. List the runs of the serial to find it.", run_id=str(run_id)
+        )
+    check_open(run.state, str(run_id))
+    return run
+
+
+def _find_same(
+    session: Session, run_id: UUID, sha256: str, pose_index: int | None
+) -> CaptureDetailView | None:
+    row = session.scalar(select(CaptureRow).where(CaptureRow.run_id == run_id, CaptureRow.sha256 == sha256))
+    if row is None:
+        return None
+    if row.pose_index != pose_index:
+        raise DuplicateImage(
+            f"This very image is capture {row.number} of the run already, for pose {row.pose_index}. "
+            "Take a new image for this pose.",
+            capture=f"/api/v1/captures/{row.id}",
+            number=row.number,
+            pose_index=row.pose_index,
+        )
+    return view_capture_detail(session, row)
+
+
+def _prescription(session: Session, run_id: UUID, pose_index: int | None) -> Prescription:
+    run = session.get(RunRow, run_id)
+    if run is None:
+        raise NotFound(
+            "There is no run of this id. List the runs of the serial to find it.", run_id=str(run_id)
+        )
+    check_open(run.state, str(run_id))
+    document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
+    revision = SkuDocument.model_validate(document).to_revision()
+    pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
+    poses = pose_set.poses if pose_set is not None else []
+    if pose_index is not None and pose_index >= len(poses):
+        raise PoseIndexUnknown(
+            f"The run's pose set has {len(poses)} poses, numbered from 0; there is no pose {pose_index}.",
+            poses=len(poses),
+            pose_index=pose_index,
+        )
+    pose = None if pose_index is None else pose_from_json(poses[pose_index])
+    return Prescription(revision.intrinsics, revision.target, pose)
+
+
+def _insert(
+    session: Session,
+    run: RunRow,
+    picture: Picture,
+    observation: Observation,
+    sha256: str,
+    pose_index: int | None,
+    now: datetime,
+) -> CaptureRow:
+    _check_pose_is_free(session, run.id, pose_index)
+    last = session.scalar(select(func.max(CaptureRow.number)).where(CaptureRow.run_id == run.id)) or 0
+    detection = observation.detection
+    row = CaptureRow(
+        run_id=run.id,
+        number=last + 1,
+        pose_index=pose_index,
+        file_name=picture.file_name or f"capture-{last + 1}",
+        sha256=sha256,
+        media_type=observation.media_type,
+        bytes=len(picture.content),
+        image_size=list(detection.image_size),
+        corners=detection.image_points.tolist(),
+        corner_ids=detection.corner_ids.tolist(),
+        sharpness=sharpness_to_json(detection.sharpness),
+        parity_separation=float(detection.parity_separation),
+        contrast=float(detection.contrast),
+        pose=None if observation.pose is None else pose_to_json(observation.pose),
+        match_error_px=observation.match_error_px,
+        created_at=now,
+    )
+    session.add(row)
+    session.flush()
+    return row
+
+
+def _check_pose_is_free(session: Session, run_id: UUID, pose_index: int | None) -> None:
+    if pose_index is None:
+        return
+    query = select(CaptureRow).where(CaptureRow.run_id == run_id, CaptureRow.pose_index == pose_index)
+    taken = session.scalar(query)
+    if taken is not None:
+        raise PoseTaken(
+            f"Pose {pose_index} has capture {taken.number} already. Withdraw that capture to take the pose again.",
+            capture=f"/api/v1/captures/{taken.id}",
+            number=taken.number,
+        )

@@ -1,0 +1,156 @@
+"""Pose sets: plan one in the background, import one, look at it, publish it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+from uuid import UUID
+
+import numpy as np
+from sqlalchemy import select
+from sqlalchemy.orm import Session
+
+from service.core.errors import NotFound, StateForbids
+from service.core.planning.document import pose_from_dict
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Pose
+from service.ports import JobQueue
+from service.storage.models import JobRow, PoseSetRow, SkuRevisionRow, SkuRow
+from service.storage.words import Publication
+from service.usecases.audit import record
+from service.usecases.observation import outer_corners
+from service.usecases.planning import PLAN_POSE_SET, PlanRequest, describe_import
+from service.usecases.publication import publish
+from service.usecases.sku_document import Revision, SkuDocument
+from service.usecases.skus import get_revision
+
+JsonObject = dict[str, Any]
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class SkuReference:
+    """Which revision of which SKU."""
+
+    code: str
+    revision: int
+
+
+@dataclass(frozen=True)
+class PoseView:
+    """A pose, and where it puts the outer corners of the board in the nominal camera's image."""
+
+    rvec: list[float]
+    tvec: list[float]
+    outer_corners: list[list[float]]
+
+
+@dataclass(frozen=True)
+class PoseSetView:
+    """A pose set as it is shown; prediction is None as long as it is planned."""
+
+    id: UUID
+    sku: SkuReference
+    state: Publication
+    poses: list[PoseView]
+    prediction: JsonObject | None
+    provenance: JsonObject
+    job_id: UUID | None
+    created_at: datetime
+    published_at: datetime | None
+
+
+@dataclass(frozen=True)
+class Requested:
+    """A new pose set, and the job that plans it if it is not imported."""
+
+    pose_set: PoseSetView
+    job: JobRow | None
+
+
+def request_pose_set(
+    session: Session, queue: JobQueue, code: str, number: int, plan: PlanRequest, who: str, now: datetime
+) -> Requested:
+    """Create an empty pose set and queue the job that plans it; raises NotFound."""
+    revision = get_revision(session, code, number)
+    row = PoseSetRow(
+        sku_revision_id=revision.id, poses=[], prediction={}, provenance=plan.to_json(), created_at=now
+    )
+    row.job_id = queue.enqueue(session, PLAN_POSE_SET, {"pose_set_id": str(row.id)})
+    session.add(row)
+    session.flush()
+    record(session, now, who, "pose-set.request", f"pose-set:{row.id}", sku=code, revision=number)
+    return Requested(_view(session, row), session.get_one(JobRow, row.job_id))
+
+
+def import_pose_set(
+    session: Session, code: str, number: int, poses: Sequence[tuple[Triple, Triple]], who: str, now: datetime
+) -> Requested:
+    """Store given poses (rvec, rad; tvec, m) as a draft; raises NotFound, and PoseSetInfeasible for useless ones."""
+    revision = get_revision(session, code, number)
+    given = [Pose(np.array(rvec, dtype=np.float64), np.array(tvec, dtype=np.float64)) for rvec, tvec in poses]
+    document = describe_import(_revision(revision), given)
+    row = PoseSetRow(sku_revision_id=revision.id, created_at=now, **document)
+    session.add(row)
+    session.flush()
+    record(session, now, who, "pose-set.import", f"pose-set:{row.id}", sku=code, revision=number)
+    return Requested(_view(session, row), None)
+
+
+def read_pose_set(session: Session, pose_set_id: UUID) -> PoseSetView:
+    """Return a pose set; raises NotFound."""
+    return _view(session, _get(session, pose_set_id))
+
+
+def publish_pose_set(session: Session, pose_set_id: UUID, who: str, now: datetime) -> PoseSetView:
+    """Publish a planned set and retire the one before it; publishing a published one changes nothing.
+
+    Raises NotFound, and StateForbids while it has no poses or when it is retired.
+    """
+    row = _get(session, pose_set_id)
+    if not row.poses:
+        raise StateForbids(
+            "The pose set has no poses yet. Wait until its job is done; when that failed, request a new set.",
+            job=None if row.job_id is None else f"/api/v1/jobs/{row.job_id}",
+        )
+    # The lock on the revision keeps two publications at the same moment from both staying published.
+    session.get(SkuRevisionRow, row.sku_revision_id, with_for_update=True)
+    siblings = session.scalars(
+        select(PoseSetRow).where(PoseSetRow.sku_revision_id == row.sku_revision_id, PoseSetRow.id != row.id)
+    )
+    if publish(row, list(siblings), now):
+        record(session, now, who, "pose-set.publish", f"pose-set:{row.id}")
+    return _view(session, row)
+
+
+def _get(session: Session, pose_set_id: UUID) -> PoseSetRow:
+    row = session.get(PoseSetRow, pose_set_id)
+    if row is None:
+        raise NotFound("There is no pose set of this id.", pose_set_id=str(pose_set_id))
+    return row
+
+
+def _revision(row: SkuRevisionRow) -> Revision:
+    return SkuDocument.model_validate(row.document).to_revision()
+
+
+def _view(session: Session, row: PoseSetRow) -> PoseSetView:
+    revision_row = session.get_one(SkuRevisionRow, row.sku_revision_id)
+    sku = session.get_one(SkuRow, revision_row.sku_id)
+    revision = _revision(revision_row)
+    return PoseSetView(
+        id=row.id,
+        sku=SkuReference(sku.code, revision_row.number),
+        state=row.state,
+        poses=[_pose_view(revision, revision.target, stored) for stored in row.poses],
+        prediction=row.prediction or None,
+        provenance=row.provenance,
+        job_id=row.job_id,
+        created_at=row.created_at,
+        published_at=row.published_at,
+    )
+
+
+def _pose_view(revision: Revision, target: Chessboard, stored: JsonObject) -> PoseView:
+    corners = outer_corners(revision.intrinsics, target, pose_from_dict(stored))
+    return PoseView(stored["rvec"], stored["tvec"], corners.tolist())

@@ -1,0 +1,176 @@
+"""The SKU document: the one JSON shape of a camera variant, in a file, in a request and in the database.
+
+Here: its fields, their checks and the way into the core's values. Not here: revisions and their states (`skus`).
+"""
+
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator, model_validator
+
+from service.core.errors import ServiceError
+from service.core.planning.pose_space import PoseSpace
+from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
+from service.core.vision.camera import Intrinsics, parameter_names
+from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.uncertainty import Region
+from service.usecases.text import Code, Label
+
+Pixels = Annotated[int, Field(ge=64, le=16384)]
+Degrees = Annotated[float, Field(ge=-180, le=180)]
+Metres = Annotated[float, Field(gt=0, le=100)]
+Finite = Annotated[float, Field(ge=-1e9, le=1e9)]
+
+
+def check_ordered(bounds: tuple[float, float]) -> tuple[float, float]:
+    """Return the bounds, or raise ValueError unless the first is the smaller one."""
+    if bounds[0] > bounds[1]:
+        raise ValueError(f"must be [smallest, largest], not [{bounds[0]:g}, {bounds[1]:g}]")
+    return bounds
+
+
+def bounds_field() -> Any:
+    """Return the field of an optional pair; JSON has no tuples, so that a list must do even in strict mode."""
+    return Field(default=None, strict=False)
+
+
+DegreeRange = Annotated[tuple[Degrees, Degrees], AfterValidator(check_ordered)]
+MetreRange = Annotated[tuple[Metres, Metres], AfterValidator(check_ordered)]
+
+
+class Document(BaseModel):
+    """A part of the document: strict types, finite numbers, no unknown fields."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+class PoseSpaceDocument(Document):
+    """The poses that a person can hold the target in; a field that is not given takes the service's default."""
+
+    distance_m: MetreRange | None = bounds_field()
+    yaw_deg: DegreeRange | None = bounds_field()
+    pitch_deg: DegreeRange | None = bounds_field()
+    roll_deg: DegreeRange | None = bounds_field()
+    image_margin_px: Annotated[float, Field(ge=0, le=1000)] | None = None
+    smallest_square_px: Annotated[float, Field(ge=1, le=1000)] | None = None
+    largest_incidence_deg: Annotated[float, Field(gt=0, lt=90)] | None = None
+    separation_px: Annotated[float, Field(ge=0, le=10000)] | None = None
+
+    def to_pose_space(self) -> PoseSpace:
+        """Return the core's pose space."""
+        return PoseSpace(**self.model_dump(exclude_none=True))
+
+
+class RegionDocument(Document):
+    """A rectangle of the image, px."""
+
+    left_px: Finite
+    top_px: Finite
+    right_px: Finite
+    bottom_px: Finite
+
+    @model_validator(mode="after")
+    def _is_not_empty(self) -> Self:
+        if self.left_px >= self.right_px or self.top_px >= self.bottom_px:
+            raise ValueError("left_px must be smaller than right_px, and top_px smaller than bottom_px")
+        return self
+
+    def to_region(self) -> Region:
+        """Return the core's region."""
+        return Region(self.left_px, self.top_px, self.right_px, self.bottom_px)
+
+
+@dataclass(frozen=True)
+class Revision:
+    """One revision of a SKU as the core's values; zones are None where the default by image size holds."""
+
+    code: str
+    name: str
+    intrinsics: Intrinsics
+    target: Chessboard
+    pose_count: int
+    pose_space: PoseSpace
+    corner_noise_px: float
+    fixed: tuple[str, ...]
+    working_zone: Region | None
+    valid_region: Region | None
+    limits: Limits
+
+
+class SkuDocument(Document):
+    """A camera variant: its lens and nominal intrinsics, its target, the poses to plan and the limits to meet."""
+
+    code: Code = Field(description="Short name in addresses: lower-case letters, digits, '.', '_' and '-'.")
+    name: Label
+    lens: Literal["pinhole5"] = Field(description="Lens model.")
+    image_size: tuple[Pixels, Pixels] = Field(strict=False, description="Width and height, px.")
+    nominal: dict[str, Finite] = Field(
+        description="Intrinsics of the data sheet: fx fy cx cy, and coefficients."
+    )
+    target: str = Field(
+        max_length=60, description="Pattern, for example chessboard:9x6:25mm (inner corners)."
+    )
+    pose_count: Annotated[int, Field(ge=3, le=100)] = 12
+    pose_space: PoseSpaceDocument = PoseSpaceDocument()
+    corner_noise_px: Annotated[float, Field(gt=0, le=10)] = Field(
+        default=0.1, description="Expected sd of a detected corner, px; the planner's noise."
+    )
+    fixed: tuple[str, ...] = Field(
+        default=(), strict=False, description="Parameters that stay at their nominal value."
+    )
+    working_zone: RegionDocument | None = Field(
+        default=None, description="Where the camera works; null: default."
+    )
+    valid_region: RegionDocument | None = Field(
+        default=None, description="Where its map is used; null: default."
+    )
+    limits: dict[str, Any] = Field(
+        default_factory=dict,
+        description="Limits of the gates that differ from the defaults by image size; any of: "
+        f"{', '.join(LIMIT_NAMES)}; and `marginal`, by name the share of a limit from which on a value is MARGINAL.",
+    )
+
+    @field_validator("target")
+    @classmethod
+    def _target_is_readable(cls, spec: str) -> str:
+        return parse_or_complain(parse_target, spec).spec
+
+    @field_validator("limits")
+    @classmethod
+    def _limits_are_known(cls, limits: dict[str, Any]) -> dict[str, Any]:
+        parse_or_complain(limits_for, (64, 64), limits)
+        return limits
+
+    @model_validator(mode="after")
+    def _nominal_fits_the_lens(self) -> Self:
+        parse_or_complain(Intrinsics.from_parameters, self.lens, self.nominal, self.image_size)
+        unknown = sorted(set(self.fixed) - set(parameter_names(self.lens)))
+        if unknown:
+            raise ValueError(
+                f"fixed has no {', '.join(unknown)}; choose from: {', '.join(parameter_names(self.lens))}"
+            )
+        return self
+
+    def to_revision(self) -> Revision:
+        """Return the core's values."""
+        return Revision(
+            code=self.code,
+            name=self.name,
+            intrinsics=Intrinsics.from_parameters(self.lens, self.nominal, self.image_size),
+            target=parse_target(self.target),
+            pose_count=self.pose_count,
+            pose_space=self.pose_space.to_pose_space(),
+            corner_noise_px=self.corner_noise_px,
+            fixed=self.fixed,
+            working_zone=self.working_zone and self.working_zone.to_region(),
+            valid_region=self.valid_region and self.valid_region.to_region(),
+            limits=limits_for(self.image_size, self.limits),
+        )
+
+
+def parse_or_complain(parse: Any, *arguments: Any) -> Any:
+    """Return what the core's parser returns; its domain error becomes the ValueError that pydantic reports by field."""
+    try:
+        return parse(*arguments)
+    except ServiceError as error:
+        raise ValueError(error.detail) from error
