@@ -13,7 +13,7 @@ from service.storage.database import Database
 from service.storage.models import Row
 
 # Two services that start together take turns; the number is the ASCII of "dmscal".
-POSTGRESQL_TURN = "SELECT pg_advisory_xact_lock(110400106389868)"
+POSTGRESQL_TURN = "SELECT pg_advisory_xact_lock(110421250105708)"
 
 
 def run(connection: Connection) -> None:

@@ -1,6 +1,6 @@
 """The tables of the first release.
 
-Revision 5d0c1b7e4a21, the first one, 2026-11-22 07:14 UTC.
+Revision 5d0c1b7e4a21, the first one, 2026-11-22 07:29 UTC.
 """
 
 from collections.abc import Sequence
@@ -14,26 +14,20 @@ branch_labels: str | Sequence[str] | None = None
 depends_on: str | Sequence[str] | None = None
 
 
+def words(name: str, *values: str) -> sa.Enum:
+    return sa.Enum(*values, name=name, native_enum=False, create_constraint=True, length=16)
+
+
+def refers(column: str, other: str, name: str) -> sa.ForeignKeyConstraint:
+    return sa.ForeignKeyConstraint([column], [other], name=op.f(name), initially="DEFERRED", deferrable=True)
+
+
 def upgrade() -> None:
     op.create_table(
         "api_key",
         sa.Column("id", sa.Uuid(), nullable=False),
         sa.Column("name", sa.String(), nullable=False),
-        sa.Column(
-            "role",
-            sa.Enum(
-                "viewer",
-                "mes",
-                "operator",
-                "engineer",
-                "admin",
-                name="role",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
-        ),
+        sa.Column("role", words("role", "viewer", "mes", "operator", "engineer", "admin"), nullable=False),
         sa.Column("prefix", sa.String(), nullable=False),
         sa.Column("sha256", sa.String(), nullable=False),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
@@ -70,19 +64,7 @@ def upgrade() -> None:
         sa.Column("id", sa.Uuid(), nullable=False),
         sa.Column("kind", sa.String(), nullable=False),
         sa.Column(
-            "state",
-            sa.Enum(
-                "queued",
-                "running",
-                "done",
-                "failed",
-                "cancelled",
-                name="state",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
+            "state", words("state", "queued", "running", "done", "failed", "cancelled"), nullable=False
         ),
         sa.Column("progress", sa.Double(), nullable=False),
         sa.Column("arguments", sa.JSON(), nullable=False),
@@ -138,19 +120,7 @@ def upgrade() -> None:
         sa.Column("sku_id", sa.Uuid(), nullable=False),
         sa.Column("number", sa.Integer(), nullable=False),
         sa.Column("document", sa.JSON(), nullable=False),
-        sa.Column(
-            "state",
-            sa.Enum(
-                "draft",
-                "published",
-                "retired",
-                name="state",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
-        ),
+        sa.Column("state", words("state", "draft", "published", "retired"), nullable=False),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
         sa.Column("published_at", sa.DateTime(timezone=True), nullable=True),
         sa.CheckConstraint(
@@ -158,13 +128,7 @@ def upgrade() -> None:
             name=op.f("ck_sku_revision_published_has_time"),
         ),
         sa.CheckConstraint("number >= 1", name=op.f("ck_sku_revision_number_from_1")),
-        sa.ForeignKeyConstraint(
-            ["sku_id"],
-            ["sku.id"],
-            name=op.f("fk_sku_revision_sku_id_sku"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
+        refers("sku_id", "sku.id", "fk_sku_revision_sku_id_sku"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_sku_revision")),
         sa.UniqueConstraint("sku_id", "number", name=op.f("uq_sku_revision_sku_id_number")),
     )
@@ -175,13 +139,7 @@ def upgrade() -> None:
         sa.Column("name", sa.String(), nullable=False),
         sa.Column("target_id", sa.Uuid(), nullable=True),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
-        sa.ForeignKeyConstraint(
-            ["target_id"],
-            ["target.id"],
-            name=op.f("fk_station_target_id_target"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
+        refers("target_id", "target.id", "fk_station_target_id_target"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_station")),
         sa.UniqueConstraint("code", name=op.f("uq_station_code")),
     )
@@ -189,19 +147,7 @@ def upgrade() -> None:
         "pose_set",
         sa.Column("id", sa.Uuid(), nullable=False),
         sa.Column("sku_revision_id", sa.Uuid(), nullable=False),
-        sa.Column(
-            "state",
-            sa.Enum(
-                "draft",
-                "published",
-                "retired",
-                name="state",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
-        ),
+        sa.Column("state", words("state", "draft", "published", "retired"), nullable=False),
         sa.Column("poses", sa.JSON(), nullable=False),
         sa.Column("prediction", sa.JSON(), nullable=False),
         sa.Column("provenance", sa.JSON(), nullable=False),
@@ -211,16 +157,8 @@ def upgrade() -> None:
         sa.CheckConstraint(
             "state <> 'published' OR published_at IS NOT NULL", name=op.f("ck_pose_set_published_has_time")
         ),
-        sa.ForeignKeyConstraint(
-            ["job_id"], ["job.id"], name=op.f("fk_pose_set_job_id_job"), initially="DEFERRED", deferrable=True
-        ),
-        sa.ForeignKeyConstraint(
-            ["sku_revision_id"],
-            ["sku_revision.id"],
-            name=op.f("fk_pose_set_sku_revision_id_sku_revision"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
+        refers("job_id", "job.id", "fk_pose_set_job_id_job"),
+        refers("sku_revision_id", "sku_revision.id", "fk_pose_set_sku_revision_id_sku_revision"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_pose_set")),
     )
     op.create_index(op.f("ix_pose_set_sku_revision_id_state"), "pose_set", ["sku_revision_id", "state"])
@@ -233,53 +171,12 @@ def upgrade() -> None:
         sa.Column("serial", sa.String(), nullable=False),
         sa.Column(
             "purpose",
-            sa.Enum(
-                "production",
-                "retest",
-                "golden",
-                "study",
-                "trial",
-                "simulated",
-                name="purpose",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
+            words("purpose", "production", "retest", "golden", "study", "trial", "simulated"),
             nullable=False,
         ),
-        sa.Column(
-            "state",
-            sa.Enum(
-                "open",
-                "finished",
-                "aborted",
-                name="state",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
-        ),
-        sa.Column(
-            "verdict",
-            sa.Enum(
-                "PASS",
-                "MARGINAL",
-                "FAIL",
-                name="verdict",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=True,
-        ),
-        sa.Column(
-            "outcome",
-            sa.Enum(
-                "COMPLETED", "ABORTED", name="outcome", native_enum=False, create_constraint=True, length=16
-            ),
-            nullable=True,
-        ),
+        sa.Column("state", words("state", "open", "finished", "aborted"), nullable=False),
+        sa.Column("verdict", words("verdict", "PASS", "MARGINAL", "FAIL"), nullable=True),
+        sa.Column("outcome", words("outcome", "COMPLETED", "ERROR", "ABORTED", "TIMEOUT"), nullable=True),
         sa.Column("created_by", sa.String(), nullable=False),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
         sa.Column("finished_at", sa.DateTime(timezone=True), nullable=True),
@@ -287,27 +184,9 @@ def upgrade() -> None:
             "(state = 'finished') = (verdict IS NOT NULL)", name=op.f("ck_run_finished_has_verdict")
         ),
         sa.CheckConstraint("(state = 'open') = (finished_at IS NULL)", name=op.f("ck_run_ended_has_time")),
-        sa.ForeignKeyConstraint(
-            ["pose_set_id"],
-            ["pose_set.id"],
-            name=op.f("fk_run_pose_set_id_pose_set"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
-        sa.ForeignKeyConstraint(
-            ["sku_revision_id"],
-            ["sku_revision.id"],
-            name=op.f("fk_run_sku_revision_id_sku_revision"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
-        sa.ForeignKeyConstraint(
-            ["station_id"],
-            ["station.id"],
-            name=op.f("fk_run_station_id_station"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
+        refers("pose_set_id", "pose_set.id", "fk_run_pose_set_id_pose_set"),
+        refers("sku_revision_id", "sku_revision.id", "fk_run_sku_revision_id_sku_revision"),
+        refers("station_id", "station.id", "fk_run_station_id_station"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_run")),
     )
     op.create_index(op.f("ix_run_created_at_id"), "run", ["created_at", "id"])
@@ -316,19 +195,7 @@ def upgrade() -> None:
         "calibration",
         sa.Column("id", sa.Uuid(), nullable=False),
         sa.Column("run_id", sa.Uuid(), nullable=False),
-        sa.Column(
-            "verdict",
-            sa.Enum(
-                "PASS",
-                "MARGINAL",
-                "FAIL",
-                name="verdict",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
-        ),
+        sa.Column("verdict", words("verdict", "PASS", "MARGINAL", "FAIL"), nullable=False),
         sa.Column("lens", sa.String(), nullable=False),
         sa.Column("intrinsics", sa.JSON(), nullable=False),
         sa.Column("covariance", sa.JSON(), nullable=False),
@@ -337,13 +204,7 @@ def upgrade() -> None:
         sa.Column("document", sa.JSON(), nullable=False),
         sa.Column("versions", sa.JSON(), nullable=False),
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
-        sa.ForeignKeyConstraint(
-            ["run_id"],
-            ["run.id"],
-            name=op.f("fk_calibration_run_id_run"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
+        refers("run_id", "run.id", "fk_calibration_run_id_run"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_calibration")),
         sa.UniqueConstraint("run_id", name=op.f("uq_calibration_run_id")),
     )
@@ -368,9 +229,7 @@ def upgrade() -> None:
         sa.Column("created_at", sa.DateTime(timezone=True), nullable=False),
         sa.CheckConstraint("length(sha256) = 64", name=op.f("ck_capture_sha256_is_hex")),
         sa.CheckConstraint("number >= 1", name=op.f("ck_capture_number_from_1")),
-        sa.ForeignKeyConstraint(
-            ["run_id"], ["run.id"], name=op.f("fk_capture_run_id_run"), initially="DEFERRED", deferrable=True
-        ),
+        refers("run_id", "run.id", "fk_capture_run_id_run"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_capture")),
         sa.UniqueConstraint("run_id", "number", name=op.f("uq_capture_run_id_number")),
         sa.UniqueConstraint("run_id", "sha256", name=op.f("uq_capture_run_id_sha256")),
@@ -387,28 +246,10 @@ def upgrade() -> None:
         sa.Column("limit", sa.Double(), nullable=True),
         sa.Column("comparison", sa.String(), nullable=False),
         sa.Column("margin", sa.Double(), nullable=True),
-        sa.Column(
-            "verdict",
-            sa.Enum(
-                "PASS",
-                "MARGINAL",
-                "FAIL",
-                name="verdict",
-                native_enum=False,
-                create_constraint=True,
-                length=16,
-            ),
-            nullable=False,
-        ),
+        sa.Column("verdict", words("verdict", "PASS", "MARGINAL", "FAIL"), nullable=False),
         sa.Column("advice", sa.String(), nullable=False),
         sa.CheckConstraint("comparison IN ('<=', '>=', '==')", name=op.f("ck_measurement_comparison")),
-        sa.ForeignKeyConstraint(
-            ["calibration_id"],
-            ["calibration.id"],
-            name=op.f("fk_measurement_calibration_id_calibration"),
-            initially="DEFERRED",
-            deferrable=True,
-        ),
+        refers("calibration_id", "calibration.id", "fk_measurement_calibration_id_calibration"),
         sa.PrimaryKeyConstraint("id", name=op.f("pk_measurement")),
     )
     op.create_index(op.f("ix_measurement_calibration_id"), "measurement", ["calibration_id"])

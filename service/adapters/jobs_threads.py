@@ -105,6 +105,12 @@ class ThreadJobs:
         self._interrupted.set()
         self._join(LAST_JOIN_S)
 
+    def check(self) -> None:
+        """Raise Unavailable unless the threads that were started work off the queue."""
+        dead = [thread.name for thread in (*self._workers, self._watcher) if not thread.is_alive()]
+        if dead or self._stopping.is_set():
+            raise Unavailable("Jobs are not worked off here. Restart the service.", threads=dead)
+
     def run_one(self) -> bool:
         """Run the oldest queued job in this thread; False when there is none."""
         with self._database.write() as session:
