@@ -5,6 +5,7 @@ Where a symmetric board leaves a choice, x points as far to the right in the ima
 Not here: what the image says about the squares (`parity`, `sharpness`).
 """
 
+import cv2
 import numpy as np
 
 from service.core.errors import TargetNotVisible, WrongTarget
@@ -13,6 +14,7 @@ from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
 SHARE_OF_A_LINE = 0.5  # of an outermost row or column that must be there for it to count as one
+DWARFED = 0.2  # of the largest grid in area times corners
 SHARE_OF_A_BOARD = 0.35  # of the corners that must be seen before a part of a board is spoken of
 
 
@@ -27,6 +29,18 @@ def whole_lines(grid: CornerGrid) -> CornerGrid:
         rows, columns = known.shape
         grid = crop(grid, side == 0, side == 2, rows - (side == 1), columns - (side == 3))
     return grid
+
+
+def prominent_grids(grids: list[CornerGrid]) -> list[CornerGrid]:
+    """Return the grids that are not dwarfed by another one: a screen behind the board may show it again, small."""
+    weights = [_area(grid) * int(grid.known.sum()) for grid in grids]
+    return [grid for grid, weight in zip(grids, weights, strict=True) if weight > DWARFED * max(weights)]
+
+
+def _area(grid: CornerGrid) -> float:
+    if not grid.points.size:
+        return 0.0
+    return float(cv2.contourArea(cv2.convexHull(grid.points[grid.known].astype(np.float32))))
 
 
 def is_larger(grid: CornerGrid, target: Chessboard) -> bool:

@@ -97,18 +97,21 @@ def _nearest_along(
 
 
 def number_corners(corners: Corners, link: NDArray[np.int64]) -> list[CornerGrid]:
-    """Return the grids of linked corners, the one with the most corners first."""
+    """Return the grids of linked corners, those with the most contrast in all first.
+
+    Inside a board the middles of its squares can make a second, faint grid; counting corners would not tell.
+    """
     neighbours: list[list[int]] = link.tolist()
     seen: set[int] = set()
-    grids = []
+    grids: list[tuple[float, CornerGrid]] = []
     for seed in range(len(corners)):
         if seed in seen:
             continue
         places = _walk(neighbours, seed)
         seen.update(places)
         if len(places) >= LEAST_CORNERS:
-            grids.append(_as_grid(corners, places))
-    return sorted(grids, key=lambda grid: -int(grid.known.sum()))
+            grids.append((float(corners.contrast[list(places)].sum()), _as_grid(corners, places)))
+    return [grid for _, grid in sorted(grids, key=lambda pair: -pair[0])]
 
 
 def _walk(neighbours: list[list[int]], seed: int) -> dict[int, tuple[int, int]]:

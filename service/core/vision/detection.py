@@ -6,7 +6,7 @@ Not here: limits on sharpness, parity and contrast (`quality.gates`); poses.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -17,6 +17,7 @@ from service.core.vision.board import (
     is_larger,
     is_whole,
     order_corners,
+    prominent_grids,
     refuse_larger,
     refuse_partial,
     whole_lines,
@@ -24,6 +25,7 @@ from service.core.vision.board import (
 from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.grid_growth import complete_grid, measure_steps
+from service.core.vision.light import LightFall, even_out, fit_light, read_cells
 from service.core.vision.parity import Parity, measure_parity
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage, smooth
@@ -35,7 +37,10 @@ SMALLEST_IMAGE_PX = 32
 COMFORTABLE_PX = 800  # long side at which most boards are found first
 GRIDS_PER_SCALE = 3
 PROVING_SIGMA_PX = 1.2
-REFINING_SIGMA_PX = 1.5
+REFINING_SIGMA_PX = 1.0
+DISC_RADII_PX = (3.0, 8.0)
+DISC_PER_EDGE_WIDTH = 1.5
+DISC_PER_SQUARE = 0.4
 LEAST_SEPARATION = 0.2
 
 
@@ -63,18 +68,20 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
     found_rows), Unprocessable when the array is no grey image.
     """
     check_grey_image(image)
-    grey = image.astype(np.float32)
-    grid = _find_board(image, smooth(grey, PROVING_SIGMA_PX), target)
-    blurred = smooth(grey, REFINING_SIGMA_PX)
-    corners = order_corners(_refined(blurred, grid, target), target)
-    on_grid = corners.reshape(target.rows, target.columns, 2)
-    parity = measure_parity(blurred, on_grid)
+    grid = _find_board(image, smooth(image, PROVING_SIGMA_PX), target)
+    corners = order_corners(grid, target).reshape(target.rows, target.columns, 2)
+    sharpness = measure_sharpness(image.astype(np.float32), corners)
+    blurred = smooth(image, REFINING_SIGMA_PX)
+    cells = read_cells(blurred, corners)
+    light = fit_light(cells)
+    parity = measure_parity(cells, light)
     _check_parity(parity, target)
+    points = _refined(blurred, corners, light, sharpness, target)
     return Detection(
-        image_points=corners,
-        corner_ids=np.arange(len(corners)),
+        image_points=points,
+        corner_ids=np.arange(len(points)),
         image_size=(image.shape[1], image.shape[0]),
-        sharpness=measure_sharpness(grey, on_grid),
+        sharpness=sharpness,
         parity_separation=parity.separation,
         contrast=parity.contrast,
     )
@@ -96,7 +103,7 @@ def _find_board(image: NDArray[np.uint8], blurred: FloatImage, target: Chessboar
     """Return the grid that is the target. Raises TargetNotVisible or WrongTarget."""
     most_seen = 0
     for scaled, scale in _scales(image):
-        grids = [whole_lines(grid) for grid in _grids(scaled, scale, blurred, target)]
+        grids = prominent_grids([whole_lines(grid) for grid in _grids(scaled, scale, blurred, target)])
         whole = next((grid for grid in grids if is_whole(grid, target)), None)
         if whole is not None:
             return whole
@@ -130,21 +137,39 @@ def _grids(
     """Return the completed grids, in full-size pixels, of a scaled image."""
     corners = find_corners(scaled)
     rounds = max(target.columns, target.rows)
-    found = []
+    found: list[CornerGrid] = []
     for grid in number_corners(corners, link_corners(corners))[:GRIDS_PER_SCALE]:
-        full = CornerGrid((grid.points + 0.5) / scale - 0.5, grid.phase)
-        found.append(complete_grid(blurred, full, rounds))
+        full = replace(grid, points=(grid.points + 0.5) / scale - 0.5)
+        if not any(_lies_inside(full, stronger) for stronger in found):
+            found.append(complete_grid(blurred, full, rounds))
     return found
 
 
-def _refined(blurred: FloatImage, grid: CornerGrid, target: Chessboard) -> CornerGrid:
-    """Return the grid with corners fitted to the blurred image; raises TargetNotVisible if one cannot be."""
-    square = measure_steps(grid.points).square_px.reshape(-1)
-    radii = np.clip(np.floor(0.4 * square), 2, 4).astype(np.int64)
-    points, proven = refine_saddles(blurred, grid.points.reshape(-1, 2), radii, iterations=20)
+def _lies_inside(grid: CornerGrid, other: CornerGrid) -> bool:
+    """Whether the middle of a grid is inside another, as that of a faint grid among a board's squares is."""
+    if not other.points.size:
+        return False
+    hull = cv2.convexHull(other.points[other.known].astype(np.float32))
+    x, y = grid.points[grid.known].mean(axis=0)
+    return bool(cv2.pointPolygonTest(hull, (float(x), float(y)), False) >= 0)
+
+
+def _refined(
+    blurred: FloatImage, corners: Array, light: LightFall, sharpness: Sharpness, target: Chessboard
+) -> Array:
+    """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be.
+
+    The disc grows with the blur, since a wide edge is flat near the corner and a narrow one needs no wide disc.
+    """
+    width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
+    wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)
+    square = measure_steps(corners).square_px.ravel()
+    radii = np.maximum(np.minimum(wanted, np.floor(DISC_PER_SQUARE * square)), 2).astype(np.int64)
+    even, origin = even_out(blurred, light, corners.reshape(-1, 2), margin_px=int(3 * DISC_RADII_PX[1]))
+    points, proven = refine_saddles(even, corners.reshape(-1, 2) - origin, radii, iterations=20)
     if not proven.all():
         raise refuse_partial(int(proven.sum()), target)
-    return CornerGrid(points.reshape(grid.points.shape), grid.phase)
+    return points + origin
 
 
 def _check_parity(parity: Parity, target: Chessboard) -> None:

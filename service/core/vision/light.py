@@ -1,0 +1,89 @@
+"""How light falls across a board: the grey levels of its bright and its dark squares as smooth surfaces.
+
+Light that falls off across a corner tilts the grey surface and moves its saddle point (by a tenth of a pixel under
+a lamp beside the lens); levels that are taken relative to both surfaces do not have that tilt.
+Not here: whether the squares alternate (`parity`).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.sampling import FloatImage, sample_bilinear
+from service.core.vision.transforms import Array
+
+CELLS_FOR_CURVATURE = 10
+
+
+@dataclass(frozen=True)
+class Cells:
+    """The inner cells of a board: centres (n, 2) px, mean grey levels (n,), and which should be bright (n,)."""
+
+    centres: Array
+    levels: Array
+    bright: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class LightFall:
+    """Surfaces of second order over the image: coefficients (6,) of bright and dark, in (x, y − middle) / scale px."""
+
+    bright: Array
+    dark: Array
+    middle: Array
+    scale: float
+
+    def levels(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return the grey levels (...) of bright and dark squares at x, y (...) px."""
+        terms = _terms((x - self.middle[0]) / self.scale, (y - self.middle[1]) / self.scale)
+        return terms @ self.bright, terms @ self.dark
+
+
+def read_cells(blurred: FloatImage, corners: Array) -> Cells:
+    """Return the inner cells of a board's corners (rows, columns, 2) px, the first of which should be dark."""
+    a, b, c, d = corners[:-1, :-1], corners[:-1, 1:], corners[1:, 1:], corners[1:, :-1]
+    total = np.zeros(a.shape[:2])
+    for u in (0.35, 0.5, 0.65):
+        for v in (0.35, 0.5, 0.65):
+            spot = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c)
+            total += sample_bilinear(blurred, spot[..., 0], spot[..., 1])
+    row, column = np.indices(total.shape)
+    centres = 0.25 * (a + b + c + d)
+    return Cells(centres.reshape(-1, 2), total.ravel() / 9.0, ((row + column) % 2 == 1).ravel())
+
+
+def fit_light(cells: Cells) -> LightFall:
+    """Return the surfaces through the levels of bright and dark cells: planes where the cells are few."""
+    middle = cells.centres.mean(axis=0)
+    scale = float(np.abs(cells.centres - middle).max())
+    surfaces = []
+    for part in (cells.bright, ~cells.bright):
+        x, y = ((cells.centres[part] - middle) / scale).T
+        used = 6 if len(x) >= CELLS_FOR_CURVATURE else 3
+        coefficients = np.zeros(6)
+        coefficients[:used] = np.linalg.lstsq(_terms(x, y)[:, :used], cells.levels[part], rcond=None)[0]
+        surfaces.append(coefficients)
+    return LightFall(surfaces[0], surfaces[1], middle, scale)
+
+
+def even_out(
+    blurred: FloatImage, light: LightFall, corners: Array, margin_px: int
+) -> tuple[FloatImage, Array]:
+    """Return the part of an image around corners (n, 2) px as levels from 0 (dark) to 1 (bright), and its origin px.
+
+    Where the surfaces meet or cross (far outside the board) their distance is held at a tenth of its median.
+    """
+    size = np.array([blurred.shape[1], blurred.shape[0]])
+    low = np.maximum(np.floor(corners.min(axis=0)).astype(int) - margin_px, 0)
+    high = np.minimum(np.ceil(corners.max(axis=0)).astype(int) + margin_px + 1, size)
+    y, x = np.mgrid[low[1] : high[1], low[0] : high[0]].astype(np.float64)
+    bright, dark = light.levels(x, y)
+    gap = bright - dark
+    gap = np.maximum(gap, max(0.1 * float(np.median(gap)), 1e-3))
+    part = blurred[low[1] : high[1], low[0] : high[0]]
+    return np.asarray((part - dark) / gap, dtype=np.float32), low.astype(np.float64)
+
+
+def _terms(x: Array, y: Array) -> Array:
+    return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
