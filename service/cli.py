@@ -229,7 +229,7 @@ def _tell(error: ServiceError, *, as_json: bool) -> int:
         }
         _print(_to_json(problem))
     else:
-        sys.stderr.write(f"{error.title}: {error.detail}\n")
+        sys.stderr.write(f"dmscal: {error.detail}\n")
     return BAD_INPUT
 
 

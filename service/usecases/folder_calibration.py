@@ -11,6 +11,7 @@ from pathlib import Path
 from service.core.errors import FolderUnusable, ImageUnreadable, ServiceError
 from service.core.quality.evidence import Expectation, NamedDetection, Refusal
 from service.core.quality.verdict import Judged, calibrate_and_judge
+from service.core.vision.calibration import check_request
 from service.core.vision.detection import detect_target
 from service.core.vision.residuals import view_rms
 from service.core.vision.target import Chessboard
@@ -55,6 +56,9 @@ def calibrate_folder(
     Raises FolderUnusable, TooFewViews, DegenerateViews, IntrinsicsInvalid. An image that cannot be used is
     refused by name, and the rest goes on.
     """
+    nominal = revision.intrinsics if revision else None
+    # Before the images, which take a while.
+    check_request(nominal.image_size if nominal else (0, 0), lens, nominal, fixed)
     paths = list_images(folder)
     outcomes = [_observe(path, target) for path in paths]
     judged = calibrate_and_judge(

@@ -10,7 +10,7 @@ import numpy as np
 
 from service.core.quality.evidence import Evidence
 from service.core.quality.gates import Measurement, check_limit
-from service.core.vision.camera import LENSES, undistort
+from service.core.vision.camera import LENSES, Intrinsics, undistort
 from service.core.vision.transforms import stack_poses
 
 GATE = "model"
@@ -95,9 +95,14 @@ def _monotone_ratio(evidence: Evidence) -> float:
     return min(limit / farthest, RATIO_CAP)
 
 
+def _aspect(intrinsics: Intrinsics) -> float:
+    return float(intrinsics.camera_matrix[0, 0] / intrinsics.camera_matrix[1, 1])
+
+
 def _square_pixels(evidence: Evidence) -> Measurement:
-    values = evidence.result.intrinsics.parameters
-    deviation = abs(values["fx"] / values["fy"] - 1.0)
+    """Compare fx/fy with the SKU's own ratio, without a SKU with 1: not all pixels are quite square."""
+    nominal = _aspect(evidence.expectation.nominal) if evidence.expectation else 1.0
+    deviation = abs(_aspect(evidence.result.intrinsics) / nominal - 1.0)
     return check_limit(
         GATE,
         "square_pixels",
@@ -105,7 +110,7 @@ def _square_pixels(evidence: Evidence) -> Measurement:
         "<=",
         evidence.limits.square_pixels,
         share=evidence.limits.share("square_pixels"),
-        good="fx and fy agree, as they must for square pixels.",
-        bad=f"fx and fy differ by {deviation:.2%}: the image was stretched, or the squares are not square.",
+        good="fx and fy are in the ratio that the pixels give them.",
+        bad=f"The ratio of fx to fy is {deviation:.2%} off: image or squares were stretched.",
         remedy="Measure the board, and record without scaling.",
     )

@@ -18,8 +18,16 @@ LARGE_IMAGE_PX = (
 
 
 def _default_shares() -> dict[str, float]:
-    """Shares where 0.8 does not suit: nothing covers more than 100 %, and no lens has edges of 0 px."""
-    return {"coverage": 0.944, "edge_width_px": 0.9, "quadrant_ratio": 0.9, "monotone_ratio": 0.95}
+    """Shares where 0.8 does not suit: nothing covers more than 100 %, no lens has edges of 0 px,
+    and a pose within its tolerance was taken as asked.
+    """
+    return {
+        "coverage": 0.944,
+        "match_share": 1.0,
+        "edge_width_px": 0.9,
+        "quadrant_ratio": 0.9,
+        "monotone_ratio": 0.95,
+    }
 
 
 @dataclass(frozen=True)
@@ -40,7 +48,7 @@ class Limits:
     )
     coverage: float = 0.85  # share of the working zone within the hull of all corners
     rms_px: float = 0.35
-    smallest_rms_px: float = 0.02  # below what 8-bit images allow, see gates_fit
+    smallest_rms_px: float = 0.005  # half of what rounding to 8 bits alone leaves, see gates_fit
     worst_view_ratio: float = 2.0
     outlier_share: float = 0.01
     focal_sd_share: float = 0.001
@@ -51,7 +59,7 @@ class Limits:
         0.05  # of the two starts: far above rounding, far below the noise of any calibration
     )
     monotone_ratio: float = 1.02
-    square_pixels: float = 0.002
+    square_pixels: float = 0.002  # of fx/fy from the SKU's own ratio, without SKU from 1
     marginal: Mapping[str, float] = field(default_factory=_default_shares)
 
     def share(self, name: str) -> float:
