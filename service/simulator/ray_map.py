@@ -16,7 +16,7 @@ EXACT = 1e-11  # residual in the ideal plane: a hundred-millionth of a pixel
 class RayMap:
     """What a camera's pixels look along.
 
-    ideal: (h, w, 2) ideal image-plane coordinates; NaN where the lens does not reach.
+    ideal: (2, h, w) ideal image-plane coordinates x and y, one plane each; NaN where the lens does not reach.
     spread: (h, w), a bound on how far a pixel's footprint reaches from its centre in the ideal plane.
     """
 
@@ -45,7 +45,7 @@ def trace_rays(intrinsics: Intrinsics) -> RayMap:
         )
         for band in np.array_split(rows, max(1, len(rows) // NODE_STEP_PX))
     ]
-    ideal = np.concatenate(bands)
+    ideal = np.ascontiguousarray(np.moveaxis(np.concatenate(bands), -1, 0))
     return RayMap(intrinsics, ideal, np.concatenate([_spread(intrinsics, band) for band in bands]))
 
 

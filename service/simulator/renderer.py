@@ -13,8 +13,10 @@ from service.core.vision.transforms import Array, Pose
 from service.simulator.background import paint_background
 from service.simulator.board import Plate, make_plate
 from service.simulator.ray_map import RayMap, trace_rays
-from service.simulator.scene import Scene
+from service.simulator.scene import Scene, project_points
 from service.simulator.sensor import expose
+
+OUTLINE_POINTS = 65  # per side of the plate
 
 
 @dataclass(frozen=True)
@@ -59,37 +61,58 @@ def render(scene: Scene, pose: Pose, rng: np.random.Generator) -> NDArray[np.uin
 
 @dataclass(frozen=True)
 class _Meeting:
-    """Where rays meet the plate, or may: flat pixel indices (n,), board points (n, 2) squares, depths (n,) m.
+    """Where rays meet the plate, or may: pixels as (rows (n,), columns (n,)), board points (n, 2) squares.
 
-    inverse: (3, 3), from (x, y, 1) of the ideal plane to (u, v, 1) / depth.
+    inverse_depth: (n,) 1/m. inverse: (3, 3), from (x, y, 1) of the ideal plane to (u, v, 1) / depth.
     """
 
-    pixels: NDArray[np.intp]
+    pixels: tuple[NDArray[np.intp], NDArray[np.intp]]
     uv: Array
-    depth: Array
+    inverse_depth: Array
     inverse: Array
 
 
 def _meet_board(prepared: PreparedScene, pose: Pose) -> _Meeting | None:
     """Return the pixels whose centre sees the plate or passes it by less than a square; None if none can."""
-    target = prepared.scene.target
-    R = pose.rotation
+    R, square = pose.rotation, prepared.scene.target.square_m
     if abs(R[:, 2] @ pose.tvec) < 1e-6:  # seen exactly from its edge
         return None
-    homography = np.column_stack([R[:, 0] * target.square_m, R[:, 1] * target.square_m, pose.tvec])
-    inverse = np.linalg.inv(homography)
-    along = prepared.rays.ideal.reshape(-1, 2) @ inverse[:, :2].T + inverse[:, 2]
+    inverse = np.linalg.inv(np.column_stack([R[:, 0] * square, R[:, 1] * square, pose.tvec]))
+    top, bottom, left, right = _bounds(prepared, pose)
+    x, y = prepared.rays.ideal[:, top:bottom, left:right]
+    a, b, c = (row[0] * x + row[1] * y + row[2] for row in inverse)
     (low_u, high_u), (low_v, high_v) = (
         steps.edges + np.array([-1.0, 1.0]) for steps in prepared.plate.outline
     )
-    a, b, c = along.T
     # Multiplied by the inverse depth c, so that nothing is divided before it is known to be seen.
     seen = (c > 1e-3) & (a > low_u * c) & (a < high_u * c) & (b > low_v * c) & (b < high_v * c)
-    pixels = np.flatnonzero(seen)
-    if pixels.size == 0:
+    rows, columns = np.nonzero(seen)
+    if rows.size == 0:
         return None
-    depth = 1.0 / c[pixels]
-    return _Meeting(pixels, along[pixels, :2] * depth[:, None], depth, inverse)
+    c = c[seen]
+    uv = np.stack([a[seen], b[seen]], axis=1) / c[:, None]
+    return _Meeting((rows + top, columns + left), uv, c, inverse)
+
+
+def _bounds(prepared: PreparedScene, pose: Pose) -> tuple[int, int, int, int]:
+    """Return top, bottom, left, right of the pixels that may see the plate; the whole picture in doubt."""
+    scene = prepared.scene
+    width, height = scene.intrinsics.image_size
+    (low_u, high_u), (low_v, high_v) = (
+        steps.edges + np.array([-1.0, 1.0]) for steps in prepared.plate.outline
+    )
+    along = np.linspace(0.0, 1.0, OUTLINE_POINTS)[:, None]
+    tips = np.array([[low_u, low_v], [high_u, low_v], [high_u, high_v], [low_u, high_v]])
+    outline = np.concatenate([tips[i] + along * (tips[(i + 1) % 4] - tips[i]) for i in range(4)])
+    points = project_points(
+        scene, pose, np.column_stack([outline, np.zeros(len(outline))]) * scene.target.square_m
+    )
+    if not np.all(np.isfinite(points)):
+        return 0, height, 0, width
+    # One pixel more, for the little by which a curved side leaves the chords between its points.
+    first = np.clip(np.floor(points.min(axis=0)) - 1, 0, (width, height)).astype(int)
+    last = np.clip(np.ceil(points.max(axis=0)) + 2, 0, (width, height)).astype(int)
+    return int(first[1]), int(last[1]), int(first[0]), int(last[0])
 
 
 def _draw_board(prepared: PreparedScene, pose: Pose, meeting: _Meeting, light: Array) -> None:
@@ -105,13 +128,12 @@ def _draw_board(prepared: PreparedScene, pose: Pose, meeting: _Meeting, light: A
     reflected = (scene.white_grey * plate + (scene.dark_grey - scene.white_grey) * dark) * _lamp(
         scene, pose, meeting.uv
     )
-    flat = light.reshape(-1)
-    flat[meeting.pixels] = flat[meeting.pixels] * (1.0 - plate) + reflected
+    light[meeting.pixels] = light[meeting.pixels] * (1.0 - plate) + reflected
 
 
 def _may_meet_edge(prepared: PreparedScene, meeting: _Meeting) -> NDArray[np.bool_]:
     """Return which pixels (n,) an edge may cross, by a bound that needs no Jacobian per pixel."""
-    spread = prepared.rays.spread.reshape(-1)[meeting.pixels] * meeting.depth
+    spread = prepared.rays.spread[meeting.pixels] / meeting.inverse_depth
     near = np.zeros(len(spread), dtype=bool)
     for axis in range(2):
         x, outline = meeting.uv[:, axis], prepared.plate.outline[axis].edges
@@ -124,10 +146,11 @@ def _may_meet_edge(prepared: PreparedScene, meeting: _Meeting) -> NDArray[np.boo
 
 def _board_jacobian(prepared: PreparedScene, meeting: _Meeting, at: NDArray[np.intp]) -> Array:
     """Return d(u, v)/d(pixel) (m, 2, 2) at some of the pixels where rays meet the board."""
-    ideal = prepared.rays.ideal.reshape(-1, 2)[meeting.pixels[at]]
+    rows, columns = (indices[at] for indices in meeting.pixels)
+    ideal = prepared.rays.ideal[:, rows, columns].T
     inverse = meeting.inverse
     by_ideal = inverse[None, :2, :2] - meeting.uv[at][:, :, None] * inverse[None, 2:, :2]
-    jacobian: Array = by_ideal * meeting.depth[at][:, None, None] @ prepared.rays.jacobian(ideal)
+    jacobian: Array = by_ideal / meeting.inverse_depth[at][:, None, None] @ prepared.rays.jacobian(ideal)
     return jacobian
 
 

@@ -78,7 +78,12 @@ def production_scene(intrinsics: Intrinsics, target: Chessboard, seed: int = 0) 
 
 def true_corners(scene: Scene, pose: Pose) -> Array:
     """Return where the target's corners lie in the picture (n, 2), px; NaN where the lens shows none."""
-    points = scene.target.object_points @ pose.rotation.T + pose.tvec
+    return project_points(scene, pose, scene.target.object_points)
+
+
+def project_points(scene: Scene, pose: Pose, object_points: Array) -> Array:
+    """Return where board points (n, 3), m, lie in the picture (n, 2), px; NaN where the lens shows none."""
+    points = object_points @ pose.rotation.T + pose.tvec
     depth = points[:, 2:3]
     ideal = points[:, :2] / np.where(depth > 0, depth, np.nan)
     # Beyond the radius at which the lens's polynomial turns it would fold a point back into the picture.

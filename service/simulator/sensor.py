@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 from service.core.vision.transforms import Array
 from service.simulator.scene import Scene
 
+Levels = NDArray[np.float32]
+
 NOISE_LEVEL = 128.0
 
 
 def expose(light: Array, scene: Scene, rng: np.random.Generator) -> NDArray[np.uint8]:
     """Return the picture (h, w) that a scene's sensor reads from light (h, w), grey levels at exposure 1."""
-    levels = light * scene.exposure if scene.exposure != 1.0 else light
+    levels = (light * scene.exposure).astype(np.float32)  # 24 bits: a millionth of a grey level is kept
     if scene.blur_px > 0:
         levels = _blur(levels, scene.blur_px)
     if scene.noise_grey > 0:
@@ -20,14 +22,15 @@ def expose(light: Array, scene: Scene, rng: np.random.Generator) -> NDArray[np.u
     return np.clip(np.rint(levels), 0, 255).astype(np.uint8)
 
 
-def _blur(levels: Array, sigma_px: float) -> Array:
+def _blur(levels: Levels, sigma_px: float) -> Levels:
     size = 2 * int(np.ceil(4.0 * sigma_px)) + 1
     blurred = cv2.GaussianBlur(levels, (size, size), sigma_px, borderType=cv2.BORDER_REFLECT_101)
-    return blurred.astype(np.float64, copy=False)
+    return blurred.astype(np.float32, copy=False)
 
 
-def _noise(levels: Array, scene: Scene, rng: np.random.Generator) -> Array:
+def _noise(levels: Levels, scene: Scene, rng: np.random.Generator) -> Levels:
     """Return noise (h, w): read noise, the same everywhere, and shot noise that follows the level."""
-    share = scene.shot_share
-    variance = (1.0 - share) + share / NOISE_LEVEL * np.maximum(levels, 0.0)
-    return scene.noise_grey * np.sqrt(variance) * rng.standard_normal(levels.shape, dtype=np.float32)
+    read, shot = scene.noise_grey**2 * np.array([1.0 - scene.shot_share, scene.shot_share / NOISE_LEVEL])
+    sd = np.sqrt(np.float32(read) + np.float32(shot) * np.maximum(levels, 0.0))
+    noise: Levels = sd * rng.standard_normal(levels.shape, dtype=np.float32)
+    return noise

@@ -17,6 +17,7 @@ from service.simulator.renderer import PreparedScene
 from service.simulator.scene import Scene, true_corners
 
 RETRIES = 40
+PULL_BACK = 0.003  # of the distance, per retry
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Mismatch:
 
     position_m: float = 0.003
     angle_rad: float = float(np.radians(1.0))
-    margin_px: float = 6.0
+    margin_px: float = 10.0
 
 
 @dataclass(frozen=True)
@@ -80,12 +81,14 @@ def take_captures(
 def hold_board(scene: Scene, pose: Pose, mismatch: Mismatch, rng: np.random.Generator) -> Pose:
     """Return the pose a hand takes for a prescribed one.
 
-    A hand that loses a corner over the picture's border comes a little closer to the prescribed pose and
-    tries again; it ends at that pose if nothing else shows the whole target.
+    A hand that loses a corner over the picture's border tries again, closer to the prescribed pose and a
+    little farther from the camera: a camera that differs from its nominal may not show that pose whole.
     """
+    centre = pose.rotation @ scene.target.centre + pose.tvec
     for attempt in range(RETRIES):
         share = 0.9**attempt
-        held = _shake(scene.target, pose, share * mismatch.position_m, share * mismatch.angle_rad, rng)
+        farther = Pose(pose.rvec, pose.tvec + PULL_BACK * attempt * centre)
+        held = _shake(scene.target, farther, share * mismatch.position_m, share * mismatch.angle_rad, rng)
         if _is_inside(true_corners(scene, held), scene.intrinsics.image_size, mismatch.margin_px):
             return held
     return pose

@@ -123,7 +123,7 @@ def test_pixels_that_the_lens_does_not_reach_show_the_background() -> None:
     )
     prepared = prepare(clean_scene(folding, BOARD))
     light = prepared.light(centred_pose(BOARD, (0, 0, 0), (0.0, 0.0, 0.05)))
-    beyond = np.isnan(prepared.rays.ideal[..., 0])
+    beyond = np.isnan(prepared.rays.ideal[0])
     assert np.all(np.isfinite(light))
     assert np.mean(beyond) > 0.2
     np.testing.assert_array_equal(light[beyond], prepared.background[beyond])

@@ -5,7 +5,7 @@ from service.core.vision.transforms import angle_between
 from service.simulator.renderer import prepare
 from service.simulator.scene import clean_scene, true_corners
 from service.simulator.vehicle import Mismatch, Tolerance, draw_camera, hold_board, take_captures
-from tests.simulator.cameras import BOARD, LENS_1, LENS_2, varied_poses
+from tests.simulator.cameras import BOARD, LENS_1, LENS_2, centred_pose, varied_poses
 
 
 def test_cameras_of_a_sku_differ_within_its_tolerance_and_a_seed_repeats_them() -> None:
@@ -39,6 +39,15 @@ def test_a_hand_keeps_every_corner_in_the_picture() -> None:
     for pose in varied_poses(LENS_1) * 5:
         corners = true_corners(scene, hold_board(scene, pose, clumsy, rng))
         assert np.all((corners >= 6.0) & (corners <= np.array([1273.0, 793.0])))
+
+
+def test_a_hand_pulls_back_where_this_camera_does_not_show_the_prescribed_pose_whole() -> None:
+    close = centred_pose(BOARD, (0, 0, 0), (0.0, 0.0, 0.212))
+    scene = clean_scene(LENS_1, BOARD)
+    assert true_corners(scene, close).min() < 10.0
+    held = hold_board(scene, close, Mismatch(), np.random.default_rng(5))
+    assert true_corners(scene, held).min() >= 10.0
+    assert held.tvec[2] < 1.1 * close.tvec[2]
 
 
 def test_captures_come_one_per_pose_and_the_same_for_the_same_seed() -> None:
