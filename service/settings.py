@@ -48,9 +48,11 @@ class Settings(BaseSettings):
     host: str = Field("127.0.0.1", description="Address to listen on; 0.0.0.0 for all")
     port: int = Field(8000, ge=0, le=65535, description="Port to listen on; 0 takes a free one")
     log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field(
-        "INFO", description="Least level that is logged"
+        "INFO", description="Least level to log: DEBUG, INFO, WARNING or ERROR"
     )
-    log_format: Literal["text", "json"] = Field("text", description="Log lines for people, or for machines")
+    log_format: Literal["text", "json"] = Field(
+        "text", description="Log lines for people (text) or machines (json)"
+    )
     max_upload_mb: int = Field(32, ge=1, description="Largest request body, in megabytes of 10^6 bytes")
     max_image_megapixels: int = Field(50, ge=1, description="Largest image, in millions of pixels")
     shutdown_grace_s: float = Field(20.0, ge=0, description="Seconds for requests and jobs to end at a stop")
