@@ -15,16 +15,20 @@ from pathlib import Path
 from typing import Any
 from uuid import UUID
 
+import uvicorn
 from pydantic import ValidationError
 
 from service import __version__
 from service.adapters.clock_system import SystemClock
 from service.api.problems import problem_body, status_of
+from service.api.schemas import write_schemas
+from service.app import create_app, open_database
 from service.core.errors import BadRequest, ServiceError
 from service.core.planning.document import pose_set_to_dict
 from service.core.planning.plan import plan_pose_set
 from service.core.quality.gates import Verdict
 from service.core.vision.target import parse_target
+from service.log import configure_logging
 from service.settings import Settings
 from service.storage.database import Database
 from service.storage.migration import check_at_head, revision_of, upgrade
@@ -65,8 +69,11 @@ def build_parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_calibrate(verbs.add_parser("calibrate", help="calibrate from a folder of images, without a server"))
     _add_plan(verbs.add_parser("plan", help="plan the poses of a SKU, without a server"))
+    _add_serve(verbs.add_parser("serve", help="start the service"))
     _add_migrate(verbs.add_parser("migrate", help="bring the database to the tables of this version"))
     _add_keys(verbs.add_parser("keys", help="add, list and revoke API keys"))
+    schemas = verbs.add_parser("schemas", help="write docs/openapi.json and the web's types (in a checkout)")
+    schemas.set_defaults(run=_schemas)
     verbs.add_parser("version", help="print the version").set_defaults(run=_version, program=parser.prog)
     return parser
 
@@ -131,6 +138,40 @@ def _plan(arguments: argparse.Namespace) -> int:
     return DONE
 
 
+def _add_serve(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--host", help="address to listen on (else DMSCAL_HOST, else 127.0.0.1)")
+    parser.add_argument("--port", type=int, help="port to listen on (else DMSCAL_PORT, else 8000)")
+    parser.add_argument("--reload", action="store_true", help="start again when the code changes")
+    _add_data_dir(parser)
+    parser.set_defaults(run=_serve)
+
+
+def _serve(arguments: argparse.Namespace) -> int:
+    settings = _settings(arguments)
+    given = {name: getattr(arguments, name) for name in ("host", "port")}
+    settings = settings.model_copy(update={name: value for name, value in given.items() if value is not None})
+    configure_logging(settings.log_level, settings.log_format)
+    # What is wrong with the database is told here in one line, and not by a server that fails to start.
+    open_database(settings).close()
+    if arguments.reload:
+        # The server imports the application in a process of its own, which knows the environment only.
+        os.environ |= {
+            "DMSCAL_DATA_DIR": str(settings.data_dir),
+            "DMSCAL_DATABASE_URL": settings.database_url,
+            "DMSCAL_BLOBS_URL": settings.blobs_url,
+        }
+    uvicorn.run(
+        "service.app:create_app_from_environment" if arguments.reload else create_app(settings),
+        factory=arguments.reload,
+        reload=arguments.reload,
+        host=settings.host,
+        port=settings.port,
+        log_config=None,
+        timeout_graceful_shutdown=round(settings.shutdown_grace_s),
+    )
+    return DONE
+
+
 def _add_migrate(parser: argparse.ArgumentParser) -> None:
     _add_data_dir(parser)
     parser.set_defaults(run=_migrate)
@@ -188,6 +229,17 @@ def _revoke_key(arguments: argparse.Namespace) -> int:
     with _database(arguments) as database, database.write() as session:
         row = revoke_key(session, key_id, WHO, SystemClock().now())
     _print(f"The key of '{row.name}' is revoked.")
+    return DONE
+
+
+def _schemas(arguments: argparse.Namespace) -> int:
+    project = Path.cwd()
+    if not (project / "pyproject.toml").is_file() or not (project / "web").is_dir():
+        raise BadRequest(
+            "Run this in the root of a checkout: the files that it writes belong to the sources."
+        )
+    changed = write_schemas(project)
+    _print("\n".join(f"written: {path}" for path in changed) or "The generated files are up to date.")
     return DONE
 
 
