@@ -1,4 +1,4 @@
-"""Composition root of the service: builds database, image store, jobs and routes from settings, and ends them in order.
+"""Composition root of the service: builds it from settings, and ends it in order.
 
 Nothing is opened before the application starts, so that it can be described without a data directory.
 """
@@ -57,8 +57,8 @@ def create_app_from_environment() -> FastAPI:
 def open_database(settings: Settings) -> Database:
     """Return the database at this version's tables.
 
-    The embedded one is brought there; a plant's is migrated on purpose, by `dmscal migrate`, for other replicas use it.
-    Raises DatabaseUnreachable, DatabaseOutdated.
+    The embedded one is brought there; a plant's is migrated on purpose, by `dmscal migrate`, for other
+    replicas use it. Raises DatabaseUnreachable, DatabaseOutdated.
     """
     database = Database.open(settings.database_url)
     if database.is_sqlite:

@@ -1,4 +1,4 @@
-"""All routes of the service as one application, without anything behind them: what they need is given as `Services`."""
+"""All routes of the service as one application; what they work with is given to it as `Services`."""
 
 from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
@@ -22,7 +22,7 @@ from service.api.rest import (
     targets,
     vehicles,
 )
-from service.api.security import SecurityHeaders
+from service.api.security import Guard
 
 Lifespan = Callable[[FastAPI], AbstractAsyncContextManager[None]]
 
@@ -31,7 +31,10 @@ MAX_IMAGE_BYTES = 32_000_000
 
 
 def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAGE_BYTES) -> FastAPI:
-    """Return the application. Bodies are limited before they are read, those with images to `max_image_bytes`."""
+    """Return the application.
+
+    Bodies are limited before they are read, those with images to `max_image_bytes`.
+    """
     app = FastAPI(
         title="dmscal",
         version=service.__version__,
@@ -41,11 +44,10 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
-        max_body_size=MAX_JSON_BYTES,
     )
     install_problem_handlers(app)
-    app.add_middleware(SecurityHeaders)
-    api = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS)
+    app.add_middleware(Guard)
+    api = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS, max_body_size=MAX_JSON_BYTES)
     for resource in (runs, results, vehicles, skus, pose_sets, jobs, targets, stations, keys):
         api.include_router(resource.router)
     app.include_router(api)

@@ -1,7 +1,7 @@
 """Who asks: from the API key of a request to a caller with a role, and the roles that routes name.
 
-Roles rise viewer < operator < engineer < admin. `mes` is a viewer who may also open runs. What keys are and how they
-are made stands in `service.usecases.access`.
+Roles rise viewer < operator < engineer < admin. `mes` is a viewer who may also open runs. What keys are and
+how they are made stands in `service.usecases.access`.
 """
 
 from dataclasses import dataclass
@@ -34,13 +34,17 @@ class RequireRole:
     def __call__(
         self, key: Annotated[HTTPAuthorizationCredentials | None, Depends(bearer)], of: Of, now: Now
     ) -> Caller:
-        """Return the caller; raises NotAuthenticated without a valid key, NotAllowed when the role is too low."""
+        """Return the caller.
+
+        Raises NotAuthenticated without a valid key, NotAllowed when the role is too low.
+        """
         if key is None:
             raise NotAuthenticated("Send your API key in the header 'Authorization: Bearer dmscal_…'.")
         caller = identify(of.database, key.credentials, now)
         if caller.role not in ROLES_FROM[self.role]:
             raise NotAllowed(
-                f"Key '{caller.name}' has the role {caller.role}; this needs {self.role}. Ask for another key.",
+                f"Key '{caller.name}' has the role {caller.role}; this needs {self.role}. Ask for another "
+                "key.",
                 role=caller.role.value,
                 needed=self.role.value,
             )

@@ -35,7 +35,7 @@ Of = Annotated[Services, Depends(services)]
 
 
 def db_session(of: Of) -> Iterator[Session]:
-    """Give a request its transaction: committed when the route has returned, rolled back when it has raised."""
+    """Give a request its transaction: committed when the route returns, rolled back when it raises."""
     with of.database.write() as session:
         yield session
 
@@ -46,8 +46,8 @@ def read_session(of: Of) -> Iterator[Session]:
         yield session
 
 
-# scope="function" ends the transaction before the answer goes out; FastAPI's default commits after it, so that a
-# failing commit would follow a 2xx. A test holds this.
+# scope="function" ends the transaction before the answer goes out; FastAPI's default commits after it, so
+# that a failing commit would follow a 2xx. A test holds this.
 Db = Annotated[Session, Depends(db_session, scope="function")]
 ReadDb = Annotated[Session, Depends(read_session, scope="function")]
 

@@ -57,7 +57,8 @@ def _operations(document: Schema, tag: str) -> Iterator[str]:
 
 
 def _operation(path: str, method: str, operation: Schema) -> str:
-    head = f"<span class=method>{method.upper()}</span> <code>{html.escape(path)}</code> {html.escape(operation['summary'])}"
+    address = f"<span class=method>{method.upper()}</span> <code>{html.escape(path)}</code>"
+    head = f"{address} {html.escape(operation['summary'])}"
     body = _prose(operation.get("description", ""))
     body += _parameters(operation.get("parameters", ()))
     body += _request(operation.get("requestBody"))
@@ -67,11 +68,13 @@ def _operation(path: str, method: str, operation: Schema) -> str:
 
 def _parameters(parameters: Any) -> str:
     rows = "".join(
-        f"<tr><td><code>{html.escape(one['name'])}</code><td>{one['in']}{', required' if one.get('required') else ''}"
-        f"<td>{_type(one['schema'])}<td>{html.escape(one.get('description', ''))}"
-        for one in parameters
+        _row(f"{one['name']} ({one['in']})", one["schema"], one.get("description", "")) for one in parameters
     )
     return f"<h3>Parameters</h3><table>{rows}</table>" if rows else ""
+
+
+def _row(name: str, schema: Schema, description: str) -> str:
+    return f"<tr><td><code>{html.escape(name)}</code><td>{_type(schema)}<td>{html.escape(description)}"
 
 
 def _request(request: Schema | None) -> str:
@@ -95,8 +98,7 @@ def _answer(status: str, answer: Schema) -> str:
 
 def _message(name: str, schema: Schema) -> str:
     rows = "".join(
-        f"<tr><td><code>{html.escape(field)}</code><td>{_type(part)}<td>{html.escape(part.get('description', ''))}"
-        for field, part in schema.get("properties", {}).items()
+        _row(field, part, part.get("description", "")) for field, part in schema.get("properties", {}).items()
     )
     examples = "".join(_example({"value": value}) for value in schema.get("examples", ()))
     values = f"<p>{_type(schema)}</p>" if not rows else f"<table>{rows}</table>"

@@ -9,17 +9,18 @@ from service.api.problems import MEDIA_TYPE, Problem
 DESCRIPTION = """\
 Calibration of driver-monitoring cameras on a production line.
 
-**From a MES, a run is four steps.** Open a run with the vehicle's serial and an `Idempotency-Key`; have its images
-uploaded (a kiosk does this); finish it; read the verdict. A result is stored before it is answered. Any request may be
-repeated when its answer was lost: opening a run by its `Idempotency-Key`, an upload by its content, a finish by reading
-the result that the problem `run-already-finished` names.
+**From a MES, a run is four steps.** Open a run with the vehicle's serial and an `Idempotency-Key`; have its
+images uploaded (a kiosk does this); finish it; read the verdict. A result is stored before it is answered.
+Any request may be repeated when its answer was lost: opening a run by its `Idempotency-Key`, an upload by
+its content, a finish by reading the result that the problem `run-already-finished` names.
 
-**A camera that fails is a result**, with the verdict FAIL and a sentence per gate that says what to do. Whatever else
-goes wrong is a problem document (RFC 9457) with a stable `code`, a `detail` that says what to do and `facts` for
-programs; each code has a page under `/problems/`.
+**A camera that fails is a result**, with the verdict FAIL and a sentence per gate that says what to do.
+Whatever else goes wrong is a problem document (RFC 9457) with a stable `code`, a `detail` that says what to
+do and `facts` for programs; each code has a page under `/problems/`.
 
-**Keys.** Send `Authorization: Bearer dmscal_…`. Roles rise viewer < operator < engineer < admin; `mes` reads and opens
-runs. Lists come in parts, newest first: give `next_cursor` back as `cursor`. Times are UTC, lengths m, pixels px.
+**Keys.** Send `Authorization: Bearer dmscal_…`. Roles rise viewer < operator < engineer < admin; `mes`
+reads and opens runs. Lists come in parts, newest first: give `next_cursor` back as `cursor`. Times are UTC,
+lengths m, pixels px.
 """
 TAGS = [
     {

@@ -1,7 +1,7 @@
 """Errors as problem documents (RFC 9457): the one place that knows HTTP numbers.
 
-Every answer that is not a success is a problem: errors of the domain, invalid fields, unknown addresses, bodies that
-are too large, and faults of the service, which tell a trace id and nothing of the inside.
+Every answer that is not a success is a problem: errors of the domain, invalid fields, unknown addresses,
+bodies that are too large, and faults of the service, which tell a trace id and nothing of the inside.
 """
 
 import logging
@@ -143,7 +143,7 @@ def _on_service_error(request: Request, error: Exception) -> JSONResponse:
 
 def _on_invalid_fields(request: Request, error: Exception) -> JSONResponse:
     found = error.errors() if isinstance(error, RequestValidationError) else []
-    errors = [FieldError(pointer=_pointer(one["loc"]), detail=_message(one)) for one in found]
+    errors = [FieldError(pointer=_pointer(one), detail=_message(one)) for one in found]
     where = "; ".join(f"{one.pointer or 'body'}: {one.detail}" for one in errors[:5])
     return answer_problem(request, ValidationFailed(f"Correct these fields and send again. {where}."), errors)
 
@@ -164,15 +164,13 @@ def _on_fault(request: Request, error: Exception) -> JSONResponse:
     return answer_problem(request, InternalError(detail))
 
 
-def _pointer(place: Sequence[int | str]) -> str:
-    if not place:
+def _pointer(one: Mapping[str, Any]) -> str:
+    source, *rest = one["loc"] or ("body",)
+    if one["type"] == "json_invalid":
+        # The place is a position in the text; there is no document yet to point into.
         return ""
-    source, *rest = place
-    # The position of a syntax error is told by the message; it is no place within a document.
-    steps = [
-        str(step).replace("~", "~0").replace("/", "~1") for step in rest if source != "body" or step != 0
-    ]
-    return "/" + "/".join(steps) if source == "body" and steps else "/".join([str(source), *steps])
+    steps = [str(step).replace("~", "~0").replace("/", "~1") for step in rest]
+    return "".join(f"/{step}" for step in steps) if source == "body" else "/".join([str(source), *steps])
 
 
 def _message(one: Mapping[str, Any]) -> str:

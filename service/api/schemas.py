@@ -1,4 +1,4 @@
-"""Writes what is generated from the routes: the OpenAPI document and the TypeScript types of the web interface."""
+"""Writes what is generated from the routes: the OpenAPI document and the TypeScript types of the pages."""
 
 import json
 from pathlib import Path

@@ -1,11 +1,14 @@
-"""What guards every request: headers that bind browsers, a trace id, and addresses that no database could store."""
+"""What guards every request: headers that bind browsers, a trace id, and no NUL in an address."""
+
+from http import HTTPStatus
 
 from starlette.datastructures import MutableHeaders
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.api.problems import answer_problem, trace_id_of
-from service.core.errors import BadRequest
+from service.api.problems import MEDIA_TYPE, answer_problem, trace_id_of
+from service.core.errors import BadRequest, ServiceError, TooLarge
+from service.log import logged_with
 
 POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
@@ -21,32 +24,56 @@ HEADERS = {
 }
 
 
-class SecurityHeaders:
+class Guard:
     """Middleware, plain ASGI so that it neither buffers bodies nor changes how errors travel."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer one request."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
         request = Request(scope)
-        trace_id = trace_id_of(request)
+        guarded = GuardedSend(request, receive, send)
+        with logged_with(trace=trace_id_of(request)):
+            # PostgreSQL stores no NUL; no name of anything in this service holds one.
+            if "\0" in scope["path"] or b"%00" in scope.get("query_string", b""):
+                await guarded.answer(BadRequest("The address holds a NUL character. Send it without."))
+            else:
+                await self.app(scope, receive, guarded)
 
-        async def send_guarded(message: Message) -> None:
-            if message["type"] == "http.response.start":
-                headers = MutableHeaders(scope=message)
-                for name, value in HEADERS.items():
-                    headers.setdefault(name, value)
-                headers["X-Trace-Id"] = trace_id
-                if scope["path"].startswith("/api/"):
-                    headers.setdefault("Cache-Control", "no-store")
-            await send(message)
 
-        # PostgreSQL stores no NUL; no name of anything in this service holds one.
-        if "\0" in scope["path"] or b"%00" in scope.get("query_string", b""):
-            refused = BadRequest("The address holds a NUL character. Send it without.")
-            await answer_problem(request, refused)(scope, receive, send_guarded)
-            return
-        await self.app(scope, receive, send_guarded)
+class GuardedSend:
+    """Sends an answer with the headers that guard it; the body limit's answer becomes a problem document."""
+
+    def __init__(self, request: Request, receive: Receive, send: Send) -> None:
+        self.request = request
+        self._receive = receive
+        self._send = send
+        self._is_dropping = False
+
+    async def __call__(self, message: Message) -> None:
+        """Send one message of the answer."""
+        if message["type"] == "http.response.start":
+            headers = MutableHeaders(scope=message)
+            is_plain = not headers.get("content-type", "").startswith(MEDIA_TYPE)
+            if message["status"] == HTTPStatus.REQUEST_ENTITY_TOO_LARGE and is_plain:
+                await self.answer(TooLarge("The body is larger than this address accepts."))
+                self._is_dropping = True
+                return
+            self._guard(headers)
+        if not self._is_dropping:
+            await self._send(message)
+
+    async def answer(self, error: ServiceError) -> None:
+        """Answer with the problem document of an error."""
+        await answer_problem(self.request, error)(self.request.scope, self._receive, self)
+
+    def _guard(self, headers: MutableHeaders) -> None:
+        for name, value in HEADERS.items():
+            headers.setdefault(name, value)
+        headers["X-Trace-Id"] = trace_id_of(self.request)
+        if self.request.url.path.startswith("/api/"):
+            headers.setdefault("Cache-Control", "no-store")

@@ -1,4 +1,7 @@
-"""What all messages of the REST interface have in common. Not here: the messages themselves, which stand in `rest`."""
+"""What all messages of the REST interface have in common.
+
+Not here: the messages themselves, which stand in `rest`.
+"""
 
 from typing import Annotated, Generic, TypeVar
 from uuid import UUID

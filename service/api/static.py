@@ -18,7 +18,8 @@ FIRST_PAGE = "dashboard.html"
 HASHED = "public, max-age=31536000, immutable"
 FRESH = "no-cache"
 NOT_BUILT = (
-    "<p>The service runs; its web interface was not built. In a checkout, run <code>make setup</code>, then restart.</p>"
+    "<p>The service runs; its web interface was not built. In a checkout, run <code>make setup</code>, "
+    "then restart.</p>"
     "<p>Meanwhile: <a href='/api/docs'>the API's documentation</a>, <a href='/readyz'>readiness</a>.</p>"
 )
 

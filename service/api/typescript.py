@@ -1,4 +1,7 @@
-"""TypeScript interfaces of the messages, from the components of the OpenAPI document. Not here: writing files."""
+"""TypeScript interfaces of the messages, from the components of the OpenAPI document.
+
+Not here: writing files.
+"""
 
 import json
 import re

@@ -1,4 +1,7 @@
-"""One uploaded image, as a multipart field `image` or as the raw body; never more than the route's body limit."""
+"""One uploaded image, as a multipart field `image` or as the raw body.
+
+Never more than the route's body limit.
+"""
 
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -11,7 +14,8 @@ from service.core.errors import BadRequest, MediaTypeUnsupported
 UPLOAD_BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
-        "description": "The image: a multipart field named `image`, or the bytes themselves with an image/* type.",
+        "description": "The image: a multipart field named `image`, or the bytes themselves with an "
+        "image/* type.",
         "content": {
             "multipart/form-data": {
                 "schema": {
@@ -45,7 +49,8 @@ async def uploaded_image(request: Request) -> UploadedImage:
         upload = UploadedImage(await request.body(), media_type, None)
     else:
         raise MediaTypeUnsupported(
-            "Send the image as multipart/form-data with a field named 'image', or as the body with an image/* type.",
+            "Send the image as multipart/form-data with a field named 'image', or as the body with an "
+            "image/* type.",
             media_type=media_type,
         )
     if not upload.content:

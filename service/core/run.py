@@ -1,4 +1,4 @@
-"""The life cycle of a run: its states, what is allowed in each, its purposes, and what a serial may look like.
+"""The life cycle of a run: states, what each allows, purposes, and what a serial may look like.
 
 Pure rules on plain values. Not here: how runs are stored and what a calibration says.
 """
@@ -9,7 +9,8 @@ from enum import StrEnum
 from service.core.errors import RunAborted, RunAlreadyFinished, SerialInvalid
 
 LONGEST_SERIAL = 64
-# Filters of test data systems read these as wildcards: a serial that holds one finds other vehicles (WATS forbids them).
+# Filters of test data systems read these as wildcards: a serial that holds one finds other vehicles (WATS
+# forbids them).
 WILDCARDS = "*%?_[]!"
 
 
@@ -68,13 +69,15 @@ def check_serial(serial: str) -> str:
     stripped = serial.strip(" ")
     if not stripped or len(stripped) > LONGEST_SERIAL:
         raise SerialInvalid(
-            f"A serial has 1 to {LONGEST_SERIAL} characters; this one has {len(stripped)}. Scan the label again."
+            f"A serial has 1 to {LONGEST_SERIAL} characters; this one has {len(stripped)}. Scan the label "
+            "again."
         )
     bad = sorted({_name(c) for c in stripped if c in WILDCARDS or not _is_printable(c)})
     if bad:
         raise SerialInvalid(
             f"A serial must not hold {', '.join(bad)}: control characters break labels, and the characters "
-            f"{' '.join(WILDCARDS)} are wildcards in other systems. Scan the label again or check the scanner's set-up.",
+            f"{' '.join(WILDCARDS)} are wildcards in other systems. Scan the label again or check the "
+            "scanner's set-up.",
             characters=bad,
         )
     return stripped

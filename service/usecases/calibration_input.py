@@ -1,4 +1,4 @@
-"""What the calibration of a run is made from, read from the database: corners as they were stored, and the SKU.
+"""What the calibration of a run is made from: corners as they were stored, and what the SKU says.
 
 The same input gives the same result to the last digit; images are not needed again.
 """

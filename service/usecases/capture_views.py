@@ -14,6 +14,7 @@ from sqlalchemy.orm import Session
 from service.core.errors import NotFound
 from service.ports import BlobStore
 from service.storage.models import CalibrationRow, CaptureRow
+from service.usecases.images import decode_image
 
 Point = tuple[float, float]
 SHOWN_BY_BROWSERS = {"image/png", "image/jpeg"}
@@ -82,7 +83,10 @@ def view_capture_detail(session: Session, row: CaptureRow) -> CaptureDetailView:
 
 
 def read_image(session: Session, blobs: BlobStore, capture_id: UUID) -> ShownImage:
-    """Return the image as it was sent, or as PNG where browsers do not show its format; raises NotFound."""
+    """Return the image as it was sent, or in grey as PNG where browsers do not show its format.
+
+    Raises NotFound.
+    """
     row = session.get(CaptureRow, capture_id)
     if row is None:
         raise NotFound("There is no capture of this id.", capture_id=str(capture_id))
@@ -93,10 +97,7 @@ def read_image(session: Session, blobs: BlobStore, capture_id: UUID) -> ShownIma
 
 
 def _to_png(content: bytes) -> bytes:
-    # The content was decoded before it was accepted, so that it decodes here too.
-    flags = cv2.IMREAD_UNCHANGED | cv2.IMREAD_IGNORE_ORIENTATION
-    pixels = cv2.imdecode(np.frombuffer(content, dtype=np.uint8), flags)
-    encoded: bytes = cv2.imencode(".png", pixels)[1].tobytes()
+    encoded: bytes = cv2.imencode(".png", decode_image(content, "The image"))[1].tobytes()
     return encoded
 
 

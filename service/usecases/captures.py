@@ -1,8 +1,9 @@
 """Captures: accept an image into a run, show it, withdraw it.
 
-An image is accepted when it is what the SKU asks for: its size, its target, not in the run already. How well it meets
-its pose is reported here and judged by the gates when the run is finished. Slow work (decoding, detection, storing the
-image) is done between two transactions; the image is stored before its row, so that no row lacks its image.
+An image is accepted when it is what the SKU asks for: its size, its target, not in the run already. How
+well it meets its pose is reported here and judged by the gates when the run is finished. Slow work
+(decoding, detection, storing the image) is done between two transactions; the image is stored before its
+row, so that no row lacks its image.
 """
 
 from dataclasses import dataclass
@@ -45,6 +46,7 @@ def add_capture(
     blobs: BlobStore,
     run_id: UUID,
     picture: Picture,
+    *,
     pose_index: int | None,
     who: str,
     now: datetime,
@@ -68,7 +70,7 @@ def add_capture(
         known = _find_same(session, run_id, sha256, pose_index)
         if known is not None:
             return Accepted(known, is_new=False)
-        row = _insert(session, run, picture, observation, sha256, pose_index, now)
+        row = _insert(session, run, picture, observation, sha256=sha256, pose_index=pose_index, now=now)
         record(session, now, who, "capture.add", f"run:{run_id}", number=row.number, sha256=sha256)
         return Accepted(view_capture_detail(session, row), is_new=True)
 
@@ -102,7 +104,10 @@ def withdraw_capture(session: Session, run_id: UUID, capture_id: UUID, who: str,
 
 
 def lock_open_run(session: Session, run_id: UUID) -> RunRow:
-    """Return an open run that nobody else changes in this transaction; raises NotFound and what `check_open` raises."""
+    """Return an open run that nobody else changes in this transaction.
+
+    Raises NotFound and what `check_open` raises.
+    """
     run = session.get(RunRow, run_id, with_for_update=True)
     if run is None:
         raise NotFound(
@@ -155,6 +160,7 @@ def _insert(
     run: RunRow,
     picture: Picture,
     observation: Observation,
+    *,
     sha256: str,
     pose_index: int | None,
     now: datetime,
@@ -192,7 +198,8 @@ def _check_pose_is_free(session: Session, run_id: UUID, pose_index: int | None) 
     taken = session.scalar(query)
     if taken is not None:
         raise PoseTaken(
-            f"Pose {pose_index} has capture {taken.number} already. Withdraw that capture to take the pose again.",
+            f"Pose {pose_index} has capture {taken.number} already. Withdraw that capture to take the "
+            "pose again.",
             capture=f"/api/v1/captures/{taken.id}",
             number=taken.number,
         )

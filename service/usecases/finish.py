@@ -1,6 +1,7 @@
-"""Finish a run: calibrate, judge, store and announce the result, all in one transaction; and compute it again.
+"""Finish a run: calibrate, judge, store and announce in one transaction; and compute a result again.
 
-The solve runs before the transaction, so that it holds no lock; what it was made from is checked again inside.
+The solve runs before the transaction, so that it holds no lock; what it was made from is checked again
+inside.
 """
 
 from collections.abc import Iterable
@@ -31,8 +32,8 @@ JsonObject = dict[str, Any]
 def finish_run(database: Database, run_id: UUID, who: str, now: datetime) -> ResultView:
     """Return the stored result of a run that was open.
 
-    Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews (the run stays open); StateForbids
-    when captures came or went while it was calibrated.
+    Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews (the run stays open);
+    StateForbids when captures came or went while it was calibrated.
     """
     with database.read() as session:
         run = get_run(session, run_id)

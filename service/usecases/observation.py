@@ -53,18 +53,21 @@ class Observation:
 def observe(picture: Picture, prescription: Prescription) -> Observation:
     """Return what a picture shows.
 
-    Raises ImageTooLarge, ImageUnreadable, ImageFormatUnsupported, WrongImageSize, TargetNotVisible, WrongTarget.
+    Raises ImageTooLarge, ImageUnreadable, ImageFormatUnsupported, WrongImageSize, TargetNotVisible,
+    WrongTarget.
     """
     header = check_image(picture.content, picture.name)
     width, height = prescription.nominal.image_size
     if header.width * header.height > picture.largest_pixels:
         raise ImageTooLarge(
-            f"{picture.name} has {header.width}x{header.height} px; at most {picture.largest_pixels} px are accepted.",
+            f"{picture.name} has {header.width}x{header.height} px; at most {picture.largest_pixels} px "
+            "are accepted.",
             largest_pixels=picture.largest_pixels,
         )
     if (header.width, header.height) != (width, height):
         raise WrongImageSize(
-            f"{picture.name} has {header.width}x{header.height} px; this SKU's camera has {width}x{height} px. "
+            f"{picture.name} has {header.width}x{header.height} px; this SKU's camera has "
+            f"{width}x{height} px. "
             "Check that the camera is of this SKU and sends its full image.",
             found=[header.width, header.height],
             expected=[width, height],
@@ -133,5 +136,6 @@ def _pose(detection: Detection, prescription: Prescription) -> Pose | None:
     try:
         return estimate_pose(prescription.nominal, points, detection.image_points).pose
     except PoseUndetermined:
-        # The pose is reported for people; the calibration estimates its own, so that the image is not refused for it.
+        # The pose is reported for people; the calibration estimates its own, so that the image is not
+        # refused for it.
         return None

@@ -53,10 +53,10 @@ def plan_pose_set_job(database: Database) -> JobHandler:
                 revision.pose_space,
                 revision.pose_count,
                 plan.seed,
-                plan.candidates,
-                revision.corner_noise_px,
-                plan.objective,
-                run.report,
+                candidates=plan.candidates,
+                sigma_px=revision.corner_noise_px,
+                objective=plan.objective,
+                progress=run.report,
                 fixed=revision.fixed,
                 zone=revision.working_zone,
             )
@@ -79,8 +79,8 @@ def plan_pose_set_job(database: Database) -> JobHandler:
 def describe_import(revision: Revision, poses: Sequence[Pose]) -> JsonObject:
     """Return the stored form of given poses with what they promise.
 
-    Raises PoseSetInfeasible naming the poses at which the board is not wholly in the image, or when the set does not
-    determine the camera.
+    Raises PoseSetInfeasible naming the poses at which the board is not wholly in the image, or when the set
+    does not determine the camera.
     """
     rotations, translations = stack_poses(list(poses))
     pixels = project(revision.intrinsics, rotations, translations, revision.target.object_points)
@@ -90,7 +90,7 @@ def describe_import(revision: Revision, poses: Sequence[Pose]) -> JsonObject:
     )
     stacked = Poses(rotations, translations)
     prediction = predict_accuracy(
-        revision.intrinsics, revision.target, stacked, revision.corner_noise_px, zone, revision.fixed
+        revision.intrinsics, revision.target, stacked, revision.corner_noise_px, zone, fixed=revision.fixed
     )
     diversity = measure_diversity(stacked, revision.target, pixels, revision.intrinsics.image_size)
     return {
@@ -107,12 +107,16 @@ def describe_import(revision: Revision, poses: Sequence[Pose]) -> JsonObject:
 
 
 def _check_visible(pixels: Array, image_size: tuple[int, int]) -> None:
-    """Refuse poses whose corners (m, n, 2) px are not all in the image; written so that NaN (behind it) is refused."""
+    """Refuse poses whose corners (m, n, 2) px are not all in the image.
+
+    Written so that NaN (behind it) is refused.
+    """
     inside = (pixels >= 0) & (pixels <= np.array(image_size) - 1.0)
     hidden = [int(i) for i in np.flatnonzero(~np.all(inside, axis=(1, 2)))]
     if hidden:
         raise PoseSetInfeasible(
-            f"The board is not wholly in the image at pose {', '.join(map(str, hidden))} (from 0). Poses are T_cam_board: "
+            f"The board is not wholly in the image at pose {', '.join(map(str, hidden))} (from 0). Poses "
+            "are T_cam_board: "
             "rotation vector in rad and translation of the board's first corner in m.",
             poses=hidden,
         )

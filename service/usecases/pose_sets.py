@@ -69,7 +69,7 @@ class Requested:
 
 
 def request_pose_set(
-    session: Session, queue: JobQueue, code: str, number: int, plan: PlanRequest, who: str, now: datetime
+    session: Session, queue: JobQueue, code: str, number: int, plan: PlanRequest, *, who: str, now: datetime
 ) -> Requested:
     """Create an empty pose set and queue the job that plans it; raises NotFound."""
     revision = get_revision(session, code, number)
@@ -84,9 +84,18 @@ def request_pose_set(
 
 
 def import_pose_set(
-    session: Session, code: str, number: int, poses: Sequence[tuple[Triple, Triple]], who: str, now: datetime
+    session: Session,
+    code: str,
+    number: int,
+    poses: Sequence[tuple[Triple, Triple]],
+    *,
+    who: str,
+    now: datetime,
 ) -> Requested:
-    """Store given poses (rvec, rad; tvec, m) as a draft; raises NotFound, and PoseSetInfeasible for useless ones."""
+    """Store given poses as a draft: rotation vector, rad, and translation, m, of `T_cam_board`.
+
+    Raises NotFound, and PoseSetInfeasible for poses that are of no use.
+    """
     revision = get_revision(session, code, number)
     given = [Pose(np.array(rvec, dtype=np.float64), np.array(tvec, dtype=np.float64)) for rvec, tvec in poses]
     document = describe_import(_revision(revision), given)

@@ -1,4 +1,4 @@
-"""Remembers answers by Idempotency-Key, in the transaction of the request, so that a repeated one changes nothing."""
+"""Remembers answers by Idempotency-Key, in the transaction of the request that they answer."""
 
 import hashlib
 from datetime import datetime
@@ -27,7 +27,8 @@ def recall(session: Session, key: str, principal: str, request: str) -> tuple[in
         return None
     if row.fingerprint != request or row.status is None or row.body is None:
         raise IdempotencyKeyReused(
-            "This Idempotency-Key was used for another request. Take a new key for a new request, and send exactly "
+            "This Idempotency-Key was used for another request. Take a new key for a new request, and "
+            "send exactly "
             "the same request to repeat one.",
             key=key,
         )
@@ -35,7 +36,7 @@ def recall(session: Session, key: str, principal: str, request: str) -> tuple[in
 
 
 def remember(
-    session: Session, key: str, principal: str, request: str, status: int, body: JsonObject, now: datetime
+    session: Session, key: str, principal: str, *, request: str, status: int, body: JsonObject, now: datetime
 ) -> None:
     """Store the answer that is about to be given."""
     session.add(

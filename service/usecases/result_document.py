@@ -1,4 +1,7 @@
-"""A judged calibration as JSON: everything that is reported and stored. NaN and infinity, which JSON has not, are null."""
+"""A judged calibration as JSON: everything that is reported and stored.
+
+NaN and infinity, which JSON has not, are null.
+"""
 
 import platform
 from collections.abc import Mapping

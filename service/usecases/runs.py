@@ -72,14 +72,16 @@ class RunView:
 def open_run(session: Session, order: Order, who: str, now: datetime) -> RunView:
     """Open a run on the SKU's published revision and pose set.
 
-    Raises SerialInvalid, NotFound, RevisionNotPublished, and PoseSetNotPublished where the purpose needs a set.
+    Raises SerialInvalid, NotFound, RevisionNotPublished, and PoseSetNotPublished where the purpose needs a
+    set.
     """
     serial = check_serial(order.serial)
     revision = get_published_revision(session, order.sku)
     pose_set_id = _published_pose_set(session, revision.id)
     if pose_set_id is None and order.purpose.needs_pose_set:
         raise PoseSetNotPublished(
-            f"SKU '{order.sku}', revision {revision.number}, has no published pose set, so that poses could not be "
+            f"SKU '{order.sku}', revision {revision.number}, has no published pose set, so that poses "
+            "could not be "
             f"judged. Plan and publish one, or open the run with another purpose than {order.purpose}.",
             sku=order.sku,
             revision=revision.number,
@@ -146,7 +148,7 @@ def view_runs(session: Session, rows: Sequence[RunRow], **details: Any) -> list[
     counts = session.execute(
         select(CaptureRow.run_id, func.count()).where(CaptureRow.run_id.in_(ids)).group_by(CaptureRow.run_id)
     )
-    captures = {run_id: count for run_id, count in counts}
+    captures: dict[UUID, int] = dict(counts.tuples().all())
     return [
         RunView(
             id=row.id,
@@ -188,4 +190,4 @@ def _references(session: Session, revision_ids: set[UUID]) -> dict[UUID, SkuRefe
 
 def _column(session: Session, key: Any, value: Any, wanted: Any) -> dict[Any, Any]:
     keys = [one for one in wanted if one is not None]
-    return {one: other for one, other in session.execute(select(key, value).where(key.in_(keys)))}
+    return dict(session.execute(select(key, value).where(key.in_(keys))).tuples().all())

@@ -1,6 +1,7 @@
 """The SKU document: the one JSON shape of a camera variant, in a file, in a request and in the database.
 
-Here: its fields, their checks and the way into the core's values. Not here: revisions and their states (`skus`).
+Here: its fields, their checks and the way into the core's values. Not here: revisions and their states
+(`skus`).
 """
 
 from dataclasses import dataclass
@@ -30,7 +31,10 @@ def check_ordered(bounds: tuple[float, float]) -> tuple[float, float]:
 
 
 def bounds_field() -> Any:
-    """Return the field of an optional pair; JSON has no tuples, so that a list must do even in strict mode."""
+    """Return the field of an optional pair.
+
+    JSON has no tuples, so that a list must do even in strict mode.
+    """
     return Field(default=None, strict=False)
 
 
@@ -45,7 +49,10 @@ class Document(BaseModel):
 
 
 class PoseSpaceDocument(Document):
-    """The poses that a person can hold the target in; a field that is not given takes the service's default."""
+    """The poses that a person can hold the target in.
+
+    A field that is not given takes the service's default.
+    """
 
     distance_m: MetreRange | None = bounds_field()
     yaw_deg: DegreeRange | None = bounds_field()
@@ -98,7 +105,7 @@ class Revision:
 
 
 class SkuDocument(Document):
-    """A camera variant: its lens and nominal intrinsics, its target, the poses to plan and the limits to meet."""
+    """A camera variant: lens and nominal intrinsics, target, poses to plan and limits to meet."""
 
     code: Code = Field(description="Short name in addresses: lower-case letters, digits, '.', '_' and '-'.")
     name: Label
@@ -127,13 +134,15 @@ class SkuDocument(Document):
     limits: dict[str, Any] = Field(
         default_factory=dict,
         description="Limits of the gates that differ from the defaults by image size; any of: "
-        f"{', '.join(LIMIT_NAMES)}; and `marginal`, by name the share of a limit from which on a value is MARGINAL.",
+        f"{', '.join(LIMIT_NAMES)}; and `marginal`, by name the share of a limit from which on a value is "
+        "MARGINAL.",
     )
 
     @field_validator("target")
     @classmethod
     def _target_is_readable(cls, spec: str) -> str:
-        return parse_or_complain(parse_target, spec).spec
+        target: Chessboard = parse_or_complain(parse_target, spec)
+        return target.spec
 
     @field_validator("limits")
     @classmethod
@@ -162,14 +171,17 @@ class SkuDocument(Document):
             pose_space=self.pose_space.to_pose_space(),
             corner_noise_px=self.corner_noise_px,
             fixed=self.fixed,
-            working_zone=self.working_zone and self.working_zone.to_region(),
-            valid_region=self.valid_region and self.valid_region.to_region(),
+            working_zone=None if self.working_zone is None else self.working_zone.to_region(),
+            valid_region=None if self.valid_region is None else self.valid_region.to_region(),
             limits=limits_for(self.image_size, self.limits),
         )
 
 
 def parse_or_complain(parse: Any, *arguments: Any) -> Any:
-    """Return what the core's parser returns; its domain error becomes the ValueError that pydantic reports by field."""
+    """Return what the core's parser returns.
+
+    Its domain error becomes the ValueError that pydantic reports by field.
+    """
     try:
         return parse(*arguments)
     except ServiceError as error:

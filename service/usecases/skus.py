@@ -36,7 +36,7 @@ def create_sku(session: Session, document: SkuDocument, who: str, now: datetime)
     session.add(row)
     session.flush()
     record(session, now, who, "sku.create", f"sku:{row.code}", name=row.name)
-    _add_revision(session, row, document, 1, who, now)
+    _add_revision(session, row, document, 1, who=who, now=now)
     return _view(row, _revisions(session, [row.id]))
 
 
@@ -69,11 +69,12 @@ def add_revision(
     row = get_sku(session, code)
     if document.code != code:
         raise ValidationFailed(
-            f"The document's code is '{document.code}', the address says '{code}'. Send the document of this SKU.",
+            f"The document's code is '{document.code}', the address says '{code}'. Send the document of "
+            "this SKU.",
             pointer="/code",
         )
     last = session.scalar(select(func.max(SkuRevisionRow.number)).where(SkuRevisionRow.sku_id == row.id))
-    return _add_revision(session, row, document, (last or 0) + 1, who, now)
+    return _add_revision(session, row, document, (last or 0) + 1, who=who, now=now)
 
 
 def list_revisions(session: Session, code: str, page: PageRequest) -> Part[SkuRevisionRow]:
@@ -125,7 +126,7 @@ def publish_revision(session: Session, code: str, number: int, who: str, now: da
 
 
 def _add_revision(
-    session: Session, sku: SkuRow, document: SkuDocument, number: int, who: str, now: datetime
+    session: Session, sku: SkuRow, document: SkuDocument, number: int, *, who: str, now: datetime
 ) -> SkuRevisionRow:
     row = SkuRevisionRow(
         sku_id=sku.id, number=number, document=document.model_dump(mode="json"), created_at=now

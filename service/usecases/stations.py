@@ -13,7 +13,7 @@ from service.usecases.paging import PageRequest, Part, page_of
 
 
 def create_station(
-    session: Session, code: str, name: str, target_id: UUID | None, who: str, now: datetime
+    session: Session, code: str, name: str, target_id: UUID | None, *, who: str, now: datetime
 ) -> StationRow:
     """Register a station; raises NotFound for an unknown board, AlreadyExists for a code that is taken."""
     if target_id is not None and session.get(TargetRow, target_id) is None:

@@ -1,4 +1,7 @@
-"""Text that the service accepts: what may be stored, shown and searched. Not here: meanings of single fields."""
+"""Text that the service accepts: what may be stored, shown and searched.
+
+Not here: meanings of single fields.
+"""
 
 import unicodedata
 from typing import Annotated

@@ -35,7 +35,7 @@ class Capture(Answer):
     bytes: int
     image_size: tuple[int, int]
     match_error_px: float | None = Field(
-        description="Mean distance of the four outer corners from where the prescribed pose puts them; judged at finish."
+        description="Mean distance of the four outer corners from the prescribed pose; judged at finish."
     )
     edge_width_px: float | None = Field(description="Median 10-90 % width of the board's edges.")
     created_at: datetime
@@ -78,6 +78,7 @@ UPLOAD_ANSWERS: dict[int | str, dict[str, Any]] = {
 )
 def create_capture(
     run_id: Id,
+    *,
     caller: Operator,
     upload: Upload,
     of: Of,
@@ -87,11 +88,14 @@ def create_capture(
 ) -> CaptureDetail:
     """Accept an image: it must show the SKU's whole target at the SKU's image size.
 
-    Send it as it comes from the camera, lossless (PNG, PGM, BMP, TIFF) where possible. A refused image changes nothing.
-    Repeating an upload is safe: the same image for the same pose gives the same capture with 200.
+    Send it as it comes from the camera, lossless (PNG, PGM, BMP, TIFF) where possible. A refused image
+    changes nothing. Repeating an upload is safe: the same image for the same pose gives the same capture
+    with 200.
     """
     picture = Picture(upload.content, upload.file_name, of.max_image_pixels)
-    accepted = captures.add_capture(of.database, of.blobs, run_id, picture, pose_index, caller.name, now)
+    accepted = captures.add_capture(
+        of.database, of.blobs, run_id, picture, pose_index=pose_index, who=caller.name, now=now
+    )
     response.status_code = 201 if accepted.is_new else 200
     return CaptureDetail.model_validate(accepted.view)
 

@@ -32,7 +32,10 @@ def read_livez() -> Alive:
 
 @router.get("/readyz", summary="Can the service work?")
 def read_readyz(of: Of) -> Ready:
-    """Check database, schema, image store and jobs; 503 names what is missing. Send no work until this is 200."""
+    """Check database, schema, image store and jobs.
+
+    503 names what is missing. Send no work until this is 200.
+    """
     for check in of.checks.values():
         check()
     return Ready(status="ready", checks=list(of.checks))

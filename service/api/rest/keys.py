@@ -4,7 +4,7 @@ from datetime import datetime
 from uuid import UUID
 
 from fastapi import APIRouter
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from service.api.auth import Admin
 from service.api.dependencies import Db, Now, PageOf, ReadDb
@@ -22,7 +22,7 @@ class NewKey(Request):
     name: Label = Field(description="Who or what uses the key.")
     role: Role = Field(strict=False)
 
-    model_config = {"json_schema_extra": {"examples": [{"name": "kiosk line 1", "role": "operator"}]}}
+    model_config = ConfigDict(json_schema_extra={"examples": [{"name": "kiosk line 1", "role": "operator"}]})
 
 
 class ApiKey(Answer):

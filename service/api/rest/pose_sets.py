@@ -1,11 +1,14 @@
-"""Pose sets: the ordered poses that an operator is asked for; planned by a job or imported, then published."""
+"""Pose sets: the ordered poses that an operator is asked for.
+
+Planned by a job or imported, then published.
+"""
 
 from datetime import datetime
 from typing import Annotated, Any, Self
 from uuid import UUID
 
 from fastapi import APIRouter, Response
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, Of, ReadDb
@@ -42,7 +45,7 @@ class NewPoseSet(Request):
         default=None, min_length=3, max_length=100, description="Import these poses instead of planning."
     )
 
-    model_config = {"json_schema_extra": {"examples": [{"seed": 1, "candidates": 3000}]}}
+    model_config = ConfigDict(json_schema_extra={"examples": [{"seed": 1, "candidates": 3000}]})
 
     @model_validator(mode="after")
     def _plans_or_imports(self) -> Self:
@@ -76,7 +79,7 @@ class PredictedMapping(Answer):
 
 
 class PredictedDiversity(Answer):
-    """How much the poses differ: spreads of their tilts, ratio of distances, share of the image that corners cover."""
+    """How much the poses differ: tilts, ratio of distances, share of the image that corners cover."""
 
     pitch_spread_deg: float
     yaw_spread_deg: float
@@ -122,6 +125,7 @@ def create_pose_set(
     code: SkuCode,
     number: RevisionNumber,
     body: NewPoseSet,
+    *,
     caller: Engineer,
     db: Db,
     of: Of,
@@ -129,13 +133,14 @@ def create_pose_set(
     response: Response,
 ) -> PoseSetRequested:
     """Plan the best poses for a revision in the background (202: follow the job), or import poses (201)."""
+    who = caller.name
     if body.poses is not None:
         response.status_code = 201
         poses = [(pose.rvec, pose.tvec) for pose in body.poses]
-        made = pose_sets.import_pose_set(db, code, number, poses, caller.name, now)
+        made = pose_sets.import_pose_set(db, code, number, poses, who=who, now=now)
     else:
         plan = PlanRequest(body.seed, body.candidates, body.objective)
-        made = pose_sets.request_pose_set(db, of.jobs, code, number, plan, caller.name, now)
+        made = pose_sets.request_pose_set(db, of.jobs, code, number, plan, who=who, now=now)
     return PoseSetRequested.model_validate(made)
 
 

@@ -6,11 +6,11 @@ from uuid import UUID
 
 from fastapi import APIRouter, Query
 from fastapi.responses import JSONResponse
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from service.api.auth import Mes, Operator, Viewer
 from service.api.dependencies import Db, Now, Of, PageOf, ReadDb
-from service.api.idempotency import IdempotencyKey, answer_once
+from service.api.idempotency import Once
 from service.api.rest.captures import Capture
 from service.api.rest.results import Result
 from service.api.shapes import Answer, Id, Page, Request
@@ -32,9 +32,9 @@ class NewRun(Request):
     station: Code | None = Field(default=None, description="Code of the station.")
     purpose: Purpose = Field(default=Purpose.PRODUCTION, strict=False)
 
-    model_config = {
-        "json_schema_extra": {"examples": [{"sku": "lens1", "serial": "VIN-0001", "purpose": "production"}]}
-    }
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"sku": "lens1", "serial": "VIN-0001", "purpose": "production"}]}
+    )
 
 
 class RunSku(Answer):
@@ -71,20 +71,15 @@ class RunDetail(RunSummary):
 
 
 @router.post("", status_code=201, summary="Open a run", response_model=RunDetail)
-def create_run(body: NewRun, caller: Mes, db: Db, now: Now, key: IdempotencyKey = None) -> JSONResponse:
+def create_run(body: NewRun, caller: Mes, db: Db, now: Now, once: Once) -> JSONResponse:
     """Open a run on the SKU's published revision and its published pose set.
 
-    Send an `Idempotency-Key` (any unique text): when an answer was lost, the same request with the same key opens no
-    second run and gets the first answer again, marked with `Idempotency-Replayed: true`.
+    Send an `Idempotency-Key` (any unique text): when an answer was lost, the same request with the same key
+    opens no second run and gets the first answer again, marked with `Idempotency-Replayed: true`.
     """
     order = runs.Order(body.sku, body.serial, body.station, body.purpose)
-    return answer_once(
-        db,
-        key,
-        caller,
-        now,
-        body,
-        lambda: RunDetail.model_validate(runs.open_run(db, order, caller.name, now)),
+    return once.answer(
+        caller, body, lambda: RunDetail.model_validate(runs.open_run(db, order, caller.name, now))
     )
 
 
@@ -111,7 +106,8 @@ def read_run(run_id: Id, caller: Viewer, db: ReadDb) -> RunDetail:
 def finish_run(run_id: Id, caller: Operator, of: Of, now: Now) -> Result:
     """Calibrate from the captures, judge by the SKU's gates and store the result, before it is answered.
 
-    A camera that fails is a result with the verdict FAIL, not an error. With too few usable views the run stays open.
+    A camera that fails is a result with the verdict FAIL, not an error. With too few usable views the run
+    stays open.
     """
     return Result.model_validate(finish.finish_run(of.database, run_id, caller.name, now))
 

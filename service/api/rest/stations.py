@@ -4,7 +4,7 @@ from datetime import datetime
 from uuid import UUID
 
 from fastapi import APIRouter
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
@@ -22,9 +22,9 @@ class NewStation(Request):
     name: Label
     target_id: UUID | None = Field(default=None, strict=False, description="Board that stands there.")
 
-    model_config = {
-        "json_schema_extra": {"examples": [{"code": "line1-cal2", "name": "Line 1, calibration 2"}]}
-    }
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"code": "line1-cal2", "name": "Line 1, calibration 2"}]}
+    )
 
 
 class Station(Answer):
@@ -41,7 +41,7 @@ class Station(Answer):
 def create_station(body: NewStation, caller: Engineer, db: Db, now: Now) -> Station:
     """Register a calibration place. Runs name it by its code."""
     return Station.model_validate(
-        stations.create_station(db, body.code, body.name, body.target_id, caller.name, now)
+        stations.create_station(db, body.code, body.name, body.target_id, who=caller.name, now=now)
     )
 
 

@@ -4,7 +4,7 @@ from datetime import datetime
 from uuid import UUID
 
 from fastapi import APIRouter
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
@@ -14,8 +14,6 @@ from service.usecases.text import Label
 
 router = APIRouter(prefix="/targets", tags=["Targets"])
 
-EXAMPLE = {"serial": "BOARD-0001", "spec": "chessboard:9x6:25mm"}
-
 
 class NewTarget(Request):
     """A board to register."""
@@ -23,7 +21,9 @@ class NewTarget(Request):
     serial: Label | None = Field(default=None, description="What is written on the board.")
     spec: str = Field(max_length=60, description="Pattern with inner corners and the side of a square.")
 
-    model_config = {"json_schema_extra": {"examples": [EXAMPLE]}}
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"serial": "BOARD-0001", "spec": "chessboard:9x6:25mm"}]}
+    )
 
 
 class Target(Answer):

@@ -48,7 +48,7 @@ export interface Capture {
   media_type: string;
   bytes: number;
   image_size: [number, number];
-  /** Mean distance of the four outer corners from where the prescribed pose puts them; judged at finish. */
+  /** Mean distance of the four outer corners from the prescribed pose; judged at finish. */
   match_error_px: number | null;
   /** Median 10-90 % width of the board's edges. */
   edge_width_px: number | null;
@@ -68,7 +68,7 @@ export interface CaptureDetail {
   media_type: string;
   bytes: number;
   image_size: [number, number];
-  /** Mean distance of the four outer corners from where the prescribed pose puts them; judged at finish. */
+  /** Mean distance of the four outer corners from the prescribed pose; judged at finish. */
   match_error_px: number | null;
   /** Median 10-90 % width of the board's edges. */
   edge_width_px: number | null;
@@ -257,7 +257,11 @@ export interface PoseShape {
   tvec: [number, number, number];
 }
 
-/** The poses that a person can hold the target in; a field that is not given takes the service's default. */
+/**
+ * The poses that a person can hold the target in.
+ *
+ * A field that is not given takes the service's default.
+ */
 export interface PoseSpaceDocument {
   distance_m?: [number, number] | null;
   yaw_deg?: [number, number] | null;
@@ -269,9 +273,7 @@ export interface PoseSpaceDocument {
   separation_px?: number | null;
 }
 
-/**
- * How much the poses differ: spreads of their tilts, ratio of distances, share of the image that corners cover.
- */
+/** How much the poses differ: tilts, ratio of distances, share of the image that corners cover. */
 export interface PredictedDiversity {
   pitch_spread_deg: number;
   yaw_spread_deg: number;
@@ -448,9 +450,7 @@ export interface SkuDetail {
   revisions: SkuRevision[];
 }
 
-/**
- * A camera variant: its lens and nominal intrinsics, its target, the poses to plan and the limits to meet.
- */
+/** A camera variant: lens and nominal intrinsics, target, poses to plan and limits to meet. */
 export interface SkuDocument {
   /** Short name in addresses: lower-case letters, digits, '.', '_' and '-'. */
   code: string;
