@@ -1,13 +1,14 @@
 """Fixtures for more than one folder."""
 
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from service.storage.database import Database
 from service.storage.migration import upgrade
-from tests.databases import KINDS, delete_rows, migrated_file, postgresql_address, sqlite_copy
+from tests.databases import KINDS, delete_rows, empty_postgresql, migrated_file, sqlite_copy
 from tests.fakes import FakeClock
 
 # --- databases ---
@@ -22,10 +23,9 @@ def migrated_sqlite(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def migrated_postgresql() -> Iterator[str]:
     """The address of a PostgreSQL database with all tables; skips where no server is reachable."""
-    with postgresql_address() as address:
-        database = Database.open(address)
-        upgrade(database)
-        database.close()
+    with empty_postgresql() as address:
+        with closing(Database.open(address)) as opened:
+            upgrade(opened)
         yield address
 
 
@@ -38,29 +38,36 @@ def sqlite_address(migrated_sqlite: Path, tmp_path: Path) -> str:
 @pytest.fixture
 def sqlite_database(sqlite_address: str) -> Iterator[Database]:
     """A SQLite database with all tables and no rows."""
-    opened = Database.open(sqlite_address)
-    yield opened
-    opened.close()
+    with closing(Database.open(sqlite_address)) as opened:
+        yield opened
+
+
+@pytest.fixture
+def postgresql_address(migrated_postgresql: str) -> str:
+    """The address of a PostgreSQL database with all tables and no rows."""
+    with closing(Database.open(migrated_postgresql)) as opened:
+        delete_rows(opened)
+    return migrated_postgresql
+
+
+@pytest.fixture
+def postgresql_database(postgresql_address: str) -> Iterator[Database]:
+    """A PostgreSQL database with all tables and no rows."""
+    with closing(Database.open(postgresql_address)) as opened:
+        yield opened
 
 
 @pytest.fixture(params=KINDS)
 def database_address(request: pytest.FixtureRequest) -> str:
     """The address of a database with all tables and no rows, on SQLite and then on PostgreSQL."""
-    if request.param == "sqlite":
-        return str(request.getfixturevalue("sqlite_address"))
-    address = str(request.getfixturevalue("migrated_postgresql"))
-    opened = Database.open(address)
-    delete_rows(opened)
-    opened.close()
-    return address
+    return str(request.getfixturevalue(f"{request.param}_address"))
 
 
 @pytest.fixture
 def database(database_address: str) -> Iterator[Database]:
     """A database with all tables and no rows, on SQLite and then on PostgreSQL."""
-    opened = Database.open(database_address)
-    yield opened
-    opened.close()
+    with closing(Database.open(database_address)) as opened:
+        yield opened
 
 
 @pytest.fixture

@@ -34,7 +34,7 @@ def sqlite_copy(template: Path, directory: Path) -> str:
 
 
 @contextmanager
-def postgresql_address() -> Iterator[str]:
+def empty_postgresql() -> Iterator[str]:
     """Yield the address of a new, empty PostgreSQL database; skip the test where no server is reachable."""
     server = make_url(os.environ.get("DMSCAL_TEST_DATABASE_URL", SERVER))
     name = f"dmscal_test_{uuid4().hex[:12]}"

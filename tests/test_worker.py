@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -17,7 +17,6 @@ from service.storage.database import Database
 from service.storage.models import JobRow
 from service.storage.words import JobState
 from service.usecases.planning import PLAN_POSE_SET
-from tests.databases import delete_rows
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -44,13 +43,6 @@ def wait_for(condition: Callable[[], bool], timeout_s: float = 60.0) -> None:
         time.sleep(0.05)
 
 
-@pytest.fixture
-def plant(migrated_postgresql: str) -> Iterator[Database]:
-    with closing(Database.open(migrated_postgresql)) as database:
-        delete_rows(database)
-        yield database
-
-
 def enqueue_unknown_pose_set(database: Database) -> JobRow:
     with database.write() as session:
         job_id = jobs.enqueue(
@@ -68,10 +60,12 @@ def state(database: Database, row: JobRow) -> JobState:
 
 
 @pytest.mark.postgresql
-def test_a_worker_works_off_jobs_until_it_is_told_to_stop(plant: Database, migrated_postgresql: str) -> None:
-    with worker(migrated_postgresql) as process:
-        row = enqueue_unknown_pose_set(plant)
-        wait_for(lambda: state(plant, row) is JobState.FAILED)
+def test_a_worker_works_off_jobs_until_it_is_told_to_stop(
+    postgresql_database: Database, postgresql_address: str
+) -> None:
+    with worker(postgresql_address) as process:
+        row = enqueue_unknown_pose_set(postgresql_database)
+        wait_for(lambda: state(postgresql_database, row) is JobState.FAILED)
 
         process.send_signal(signal.SIGTERM)
 
@@ -81,14 +75,16 @@ def test_a_worker_works_off_jobs_until_it_is_told_to_stop(plant: Database, migra
 
 
 @pytest.mark.postgresql
-def test_a_job_of_a_worker_that_died_is_taken_over(plant: Database, migrated_postgresql: str) -> None:
-    row = enqueue_unknown_pose_set(plant)
-    with plant.write() as session:
+def test_a_job_of_a_worker_that_died_is_taken_over(
+    postgresql_database: Database, postgresql_address: str
+) -> None:
+    row = enqueue_unknown_pose_set(postgresql_database)
+    with postgresql_database.write() as session:
         assert jobs.claim(session, row.id, [PLAN_POSE_SET], SystemClock().now()) is not None
-    assert state(plant, row) is JobState.RUNNING
+    assert state(postgresql_database, row) is JobState.RUNNING
 
-    with worker(migrated_postgresql, stale_s=1.0):
-        wait_for(lambda: state(plant, row) is JobState.FAILED)
+    with worker(postgresql_address, stale_s=1.0):
+        wait_for(lambda: state(postgresql_database, row) is JobState.FAILED)
 
 
 def test_a_worker_on_sqlite_says_that_the_service_runs_the_jobs(sqlite_address: str) -> None:

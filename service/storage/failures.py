@@ -74,7 +74,7 @@ SQLSTATES: Mapping[str, type[ServiceError]] = {
 
 DETAILS: Mapping[type[ServiceError], str] = {
     DatabaseBusy: "The database is busy with other work. Nothing was stored; try again.",
-    DatabaseUnreachable: "The database cannot be reached. Nothing was stored; have it checked.",
+    DatabaseUnreachable: "The database cannot be reached. Have it checked, then send the same request again.",
     DiskFull: "The database has no room left. Nothing was stored; free some space, then try again.",
 }
 

@@ -29,7 +29,10 @@ class WriterLock:
     """A lock between processes, on a file that is never removed."""
 
     def __init__(self, path: Path) -> None:
-        self._file: int | None = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        try:
+            self._file: int | None = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        except OSError as error:
+            raise DatabaseUnreachable(f"The lock {path} cannot be opened: {error.strerror}.") from error
 
     def acquire(self, timeout_s: float) -> None:
         """Wait until no other process writes; raises DatabaseBusy."""

@@ -17,7 +17,7 @@ from service.core.errors import DatabaseOutdated
 from service.storage.database import Database
 from service.storage.migration import alembic_config, check_at_head, revision_of, scripts_directory, upgrade
 from service.storage.models import Row
-from tests.databases import KINDS, postgresql_address
+from tests.databases import KINDS, empty_postgresql
 
 SCRIPTS = ScriptDirectory.from_config(alembic_config())
 REVISIONS = [script.revision for script in SCRIPTS.walk_revisions()][::-1]
@@ -29,7 +29,7 @@ def empty_database(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[D
         with closing(Database.open(f"sqlite:///{tmp_path / 'new' / 'dmscal.db'}")) as opened:
             yield opened
         return
-    with postgresql_address() as address, closing(Database.open(address)) as opened:
+    with empty_postgresql() as address, closing(Database.open(address)) as opened:
         yield opened
 
 

@@ -3,19 +3,16 @@
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
-from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
 
 import pytest
 from sqlalchemy import func, select, text
-from sqlalchemy.exc import DBAPIError, IntegrityError, StatementError
+from sqlalchemy.exc import DBAPIError, IntegrityError
 
-from service.core.errors import AlreadyExists, DatabaseBusy, DatabaseUnreachable, DiskFull, DuplicateImage
+from service.core.errors import DatabaseBusy, DatabaseUnreachable, DiskFull
 from service.storage.database import Database
-from service.storage.models import SkuRevisionRow, SkuRow, StationRow, TargetRow
-from service.storage.words import Publication
+from service.storage.models import SkuRevisionRow, SkuRow
 from tests.fakes import START
-from tests.storage.make import make_capture, make_run
 
 
 def sku(code: str = "lens1") -> SkuRow:
@@ -135,104 +132,18 @@ def test_a_row_that_refers_to_nothing_is_refused(database: Database) -> None:
         session.add(SkuRevisionRow(sku_id=sku().id, number=1, document={}, created_at=START))
 
 
-@pytest.mark.parametrize(
-    "make",
-    [
-        sku,
-        lambda: StationRow(code="st1", name="Station", created_at=START),
-        lambda: TargetRow(serial="T1", spec="chessboard:9x6:25mm", created_at=START),
-    ],
-    ids=["sku", "station", "target"],
-)
-def test_a_name_that_is_taken_already_exists(database: Database, make: object) -> None:
-    assert callable(make)
-    with database.write() as session:
-        session.add(make())
-
-    with pytest.raises(AlreadyExists), database.write() as session:
-        session.add(make())
-
-
-def test_the_same_image_twice_in_a_run_is_a_duplicate(database: Database) -> None:
-    with database.write() as session:
-        run = make_run(session)
-        session.add(make_capture(run, number=1, sha256="a" * 64))
-
-    with pytest.raises(DuplicateImage), database.write() as session:
-        session.add(make_capture(run, number=2, sha256="a" * 64))
-
-
-@pytest.mark.parametrize(
-    "damage",
-    [
-        "UPDATE run SET state = 'finished', finished_at = created_at",
-        "UPDATE run SET state = 'aborted'",
-        "UPDATE run SET state = 'lost'",
-        "UPDATE run SET purpose = 'fun'",
-        "UPDATE run SET verdict = 'PASS'",
-        "UPDATE sku_revision SET state = 'published', published_at = NULL",
-        "UPDATE sku_revision SET number = 0",
-        "UPDATE capture SET sha256 = 'short'",
-        "UPDATE capture SET number = 0",
-    ],
-)
-def test_impossible_rows_are_refused(database: Database, damage: str) -> None:
-    with database.write() as session:
-        session.add(make_capture(make_run(session), number=1, sha256="a" * 64))
-
-    with pytest.raises(IntegrityError), database.write() as session:
-        session.execute(text(damage))
-
-
-def test_times_come_back_in_utc_to_the_microsecond(database: Database) -> None:
-    moment = datetime(2026, 3, 29, 2, 30, 0, 123456, tzinfo=timezone(timedelta(hours=-7)))
-    with database.write() as session:
-        session.add(SkuRow(code="lens1", name="Lens", created_at=moment))
-
-    with database.read() as session:
-        found = session.scalars(select(SkuRow.created_at)).one()
-    assert (found, found.tzinfo) == (moment, UTC)
-
-
-def test_a_time_without_a_zone_is_refused(database: Database) -> None:
-    with pytest.raises(StatementError), database.write() as session:
-        session.add(SkuRow(code="lens1", name="Lens", created_at=datetime(2026, 1, 1)))  # noqa: DTZ001
-
-
-def test_floats_in_json_come_back_to_the_last_digit(database: Database) -> None:
-    numbers = [0.1, -0.0, 1e-300, 1.7976931348623157e308, 2 / 3, 5e-324]
-    write_document(database, {"numbers": numbers})
-
-    with database.read() as session:
-        found = session.scalars(select(SkuRevisionRow.document)).one()["numbers"]
-    assert [number.hex() for number in found] == [number.hex() for number in numbers]
-
-
-@pytest.mark.parametrize("number", [float("nan"), float("inf")])
-def test_what_is_no_number_is_refused_in_json(database: Database, number: float) -> None:
-    with pytest.raises((StatementError, ValueError), match="JSON"):
-        write_document(database, {"number": number})
-
-
-def write_document(database: Database, document: dict[str, object]) -> None:
-    parent = sku()
-    revision = SkuRevisionRow(sku_id=parent.id, number=1, document=document, created_at=START)
-    with database.write() as session:
-        session.add_all([parent, revision])
-
-
-def test_words_come_back_as_words(database: Database) -> None:
-    write_document(database, {})
-
-    with database.read() as session:
-        assert session.scalars(select(SkuRevisionRow.state)).one() is Publication.DRAFT
-
-
 def test_a_sqlite_file_in_a_directory_that_cannot_be_made_is_unreachable(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
 
     with pytest.raises(DatabaseUnreachable):
         Database.open(f"sqlite:///{tmp_path / 'file' / 'dmscal.db'}")
+
+
+def test_a_lock_that_cannot_be_opened_is_unreachable(tmp_path: Path) -> None:
+    (tmp_path / "dmscal.db.writer").mkdir()
+
+    with pytest.raises(DatabaseUnreachable):
+        Database.open(f"sqlite:///{tmp_path / 'dmscal.db'}")
 
 
 def test_a_file_that_is_no_database_is_unreachable(tmp_path: Path) -> None:
