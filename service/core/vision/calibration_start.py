@@ -13,17 +13,24 @@ from service.core.vision.normal_equations import Estimate
 from service.core.vision.transforms import Array, rotation_matrix
 from service.core.vision.view_stack import ViewStack
 
-SWEEP_HFOV_DEG = (30.0, 45.0, 60.0, 80.0, 100.0, 120.0, 140.0)
+DISTORTION_SHARES = (1.0, 0.9, 0.8, 0.6, 0.4, 0.2)
+SWEEP_HFOV_DEG = (40.0, 60.0, 90.0, 120.0)
 
 
 def nominal_start(nominal: Intrinsics, stack: ViewStack) -> Estimate:
-    """Return an estimate at given intrinsics; without distortion where the lens misses a corner."""
-    ideal = undistort(nominal, stack.image_points)
-    vector = nominal.vector
-    if not np.all(np.isfinite(ideal)):
-        vector = np.concatenate([vector[:4], np.zeros(len(vector) - 4)])
-        ideal = (stack.image_points - vector[2:4]) / vector[:2]
-    return Estimate(vector, *planar_poses(stack, ideal))
+    """Return an estimate at given intrinsics, with as much of their distortion as reaches every corner.
+
+    A nominal that folds inside the picture of the real lens would be a start at which a solve cannot stand.
+    """
+    for share in DISTORTION_SHARES:
+        vector = nominal.vector * np.r_[np.ones(4), np.full(len(nominal.dist_coeffs), share)]
+        ideal = undistort(
+            Intrinsics.from_vector(nominal.lens, vector, nominal.image_size), stack.image_points
+        )
+        if np.all(np.isfinite(ideal)):
+            return Estimate(vector, *planar_poses(stack, ideal))
+    plain = np.r_[nominal.vector[:4], np.zeros(len(nominal.dist_coeffs))]
+    return Estimate(plain, *planar_poses(stack, (stack.image_points - plain[2:4]) / plain[:2]))
 
 
 def sweep_starts(lens: str, image_size: tuple[int, int], stack: ViewStack) -> list[Estimate]:

@@ -24,6 +24,7 @@ from service.core.vision.view_stack import ViewStack
 AGREEMENT_PX = 0.05
 THINNED_CORNERS = 16
 DAMPING_NEAR_OPTIMUM = 1e-9
+FIRST_PARAMETERS = (0, 1, 4)
 
 
 @dataclass(frozen=True)
@@ -56,10 +57,10 @@ def solve_from_starts(problem: Problem) -> Ends:
     decides whether blind was merely unlucky.
     """
     thinned = problem.stack.thinned(THINNED_CORNERS)
-    blind = _coarse(problem, thinned, [blind_start(problem.lens, problem.image_size, thinned)])
+    blind = _coarse(problem, thinned, blind_start(problem.lens, problem.image_size, thinned))
     if problem.nominal is None:
         return _finish(problem, {"sweep": _sweep(problem, thinned), "blind": blind})
-    nominal = _coarse(problem, thinned, [nominal_start(problem.nominal, thinned)])
+    nominal = _coarse(problem, thinned, nominal_start(problem.nominal, thinned))
     ends = _finish(problem, {"nominal": nominal, "blind": blind})
     if ends.agreement_px <= AGREEMENT_PX:
         return ends
@@ -67,14 +68,28 @@ def solve_from_starts(problem: Problem) -> Ends:
 
 
 def _sweep(problem: Problem, thinned: ViewStack) -> Fit | None:
-    """Return the best end of a sweep of focal lengths on a few corners of each view."""
-    return _coarse(problem, thinned, sweep_starts(problem.lens, problem.image_size, thinned))
+    """Return the end of a sweep of focal lengths on a few corners of each view.
+
+    From far away all coefficients at once may run into the fold of the lens and stick there, so the focal
+    length and the first coefficient go ahead; the most promising of these ends are then followed until one
+    proves its optimum.
+    """
+    first = np.intersect1d(problem.free, FIRST_PARAMETERS)
+    starts = [_held(problem, start) for start in sweep_starts(problem.lens, problem.image_size, thinned)]
+    ahead = [minimise(problem.lens, thinned, start, first, iterations=12) for start in starts]
+    ends: list[Fit | None] = []
+    for fit in sorted((fit for fit in ahead if fit), key=lambda fit: fit.equations.cost):
+        ends.append(_coarse(problem, thinned, fit.estimate))
+        if ends[-1] and ends[-1].converged:
+            break
+    return _cheapest(ends)
 
 
-def _coarse(problem: Problem, thinned: ViewStack, starts: Sequence[Estimate | None]) -> Fit | None:
-    """Return the best end of some starts, solved on a few corners of each view."""
-    held = [_held(problem, start) for start in starts if start is not None]
-    return _cheapest([minimise(problem.lens, thinned, start, problem.free, iterations=60) for start in held])
+def _coarse(problem: Problem, thinned: ViewStack, start: Estimate | None) -> Fit | None:
+    """Return the end of a start on a few corners of each view."""
+    if start is None:
+        return None
+    return minimise(problem.lens, thinned, _held(problem, start), problem.free, iterations=60)
 
 
 def _cheapest(fits: Sequence[Fit | None]) -> Fit | None:
