@@ -10,7 +10,7 @@ from datetime import datetime, timedelta
 from typing import Any
 from uuid import UUID
 
-from sqlalchemy import Update, select, update
+from sqlalchemy import Update, or_, select, update
 from sqlalchemy.orm import Session
 
 from service.core.errors import JobAlreadyEnded, NotFound
@@ -90,10 +90,11 @@ def hand_back(session: Session, job_id: UUID, worker: UUID) -> bool:
 
 def requeue_orphans(session: Session, now: datetime, silent_s: float) -> list[UUID]:
     """Queue running jobs again that were silent for `silent_s`; fail those that had all attempts."""
+    silence = timedelta(seconds=silent_s)
+    # A sign of life from the future tells that the clock was set back since.
+    is_orphan = or_(JobRow.heartbeat_at <= now - silence, JobRow.heartbeat_at > now + silence)
     orphans = session.scalars(
-        select(JobRow)
-        .where(JobRow.state == JobState.RUNNING, JobRow.heartbeat_at <= now - timedelta(seconds=silent_s))
-        .with_for_update(skip_locked=True)
+        select(JobRow).where(JobRow.state == JobState.RUNNING, is_orphan).with_for_update(skip_locked=True)
     ).all()
     for row in orphans:
         if row.attempts < MOST_ATTEMPTS:

@@ -262,6 +262,18 @@ def test_a_job_without_a_sign_of_life_is_taken_over_and_its_first_worker_stores_
     assert skus(database) == 1
 
 
+def test_a_clock_that_was_set_back_leaves_no_job_behind(database: Database, clock: FakeClock) -> None:
+    queue = queue_on(database, clock)
+    job_id = enqueue(database, queue, "add-sku", code="lens1")
+    with database.write() as session:
+        assert jobs.claim(session, new_id(), HANDLERS, clock.now()) is not None
+
+    clock.advance(-3600.0)
+    queue.requeue_orphans(30.0)
+
+    assert job(database, job_id).state is JobState.QUEUED
+
+
 def test_a_job_that_kills_its_workers_is_given_up(database: Database, clock: FakeClock) -> None:
     queue = queue_on(database, clock)
     job_id = enqueue(database, queue, "add-sku", code="lens1")
