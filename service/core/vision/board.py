@@ -32,7 +32,7 @@ def whole_lines(grid: CornerGrid) -> CornerGrid:
 
 
 def prominent_grids(grids: list[CornerGrid]) -> list[CornerGrid]:
-    """Return the grids that are not dwarfed by another one: a screen behind the board may show it again, small."""
+    """Return the grids that no other one dwarfs: a screen behind the board may show it again, small."""
     weights = [_area(grid) * int(grid.known.sum()) for grid in grids]
     return [grid for grid, weight in zip(grids, weights, strict=True) if weight > DWARFED * max(weights)]
 

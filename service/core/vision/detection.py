@@ -159,7 +159,7 @@ def _refined(
 ) -> Array:
     """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be.
 
-    The disc grows with the blur, since a wide edge is flat near the corner and a narrow one needs no wide disc.
+    The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc.
     """
     width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
     wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)

@@ -1,7 +1,7 @@
 """How light falls across a board: the grey levels of its bright and its dark squares as smooth surfaces.
 
-Light that falls off across a corner tilts the grey surface and moves its saddle point (by a tenth of a pixel under
-a lamp beside the lens); levels that are taken relative to both surfaces do not have that tilt.
+Light that falls off across a corner tilts the grey surface and moves its saddle point (by a tenth of a pixel
+under a lamp beside the lens); levels that are taken relative to both surfaces do not have that tilt.
 Not here: whether the squares alternate (`parity`).
 """
 
@@ -18,7 +18,7 @@ CELLS_FOR_CURVATURE = 10
 
 @dataclass(frozen=True)
 class Cells:
-    """The inner cells of a board: centres (n, 2) px, mean grey levels (n,), and which should be bright (n,)."""
+    """A board's inner cells: centres (n, 2) px, mean grey levels (n,), and which should be bright (n,)."""
 
     centres: Array
     levels: Array
@@ -27,7 +27,7 @@ class Cells:
 
 @dataclass(frozen=True)
 class LightFall:
-    """Surfaces of second order over the image: coefficients (6,) of bright and dark, in (x, y − middle) / scale px."""
+    """Second-order surfaces: coefficients (6,) of bright and dark over ((x, y) − middle) / scale, all in px."""
 
     bright: Array
     dark: Array
@@ -41,7 +41,7 @@ class LightFall:
 
 
 def read_cells(blurred: FloatImage, corners: Array) -> Cells:
-    """Return the inner cells of a board's corners (rows, columns, 2) px, the first of which should be dark."""
+    """Return the inner cells of a board's corners (rows, columns, 2) px; the first cell should be dark."""
     a, b, c, d = corners[:-1, :-1], corners[:-1, 1:], corners[1:, 1:], corners[1:, :-1]
     total = np.zeros(a.shape[:2])
     for u in (0.35, 0.5, 0.65):
@@ -70,7 +70,7 @@ def fit_light(cells: Cells) -> LightFall:
 def even_out(
     blurred: FloatImage, light: LightFall, corners: Array, margin_px: int
 ) -> tuple[FloatImage, Array]:
-    """Return the part of an image around corners (n, 2) px as levels from 0 (dark) to 1 (bright), and its origin px.
+    """Return the image around corners (n, 2) px as levels from 0 (dark) to 1 (bright), and its origin (2,) px.
 
     Where the surfaces meet or cross (far outside the board) their distance is held at a tenth of its median.
     """

@@ -14,9 +14,9 @@ from service.core.vision.light import Cells, LightFall
 class Parity:
     """How well dark and bright squares separate.
 
-    separation: (min bright − max dark) / (mean bright − mean dark) of the cells once the fall of light across the
-    board has been taken out; at most 1, below 0 when the squares do not alternate.
-    contrast: mean bright − mean dark, grey levels, as they are; negative when dark and bright have changed places.
+    separation: (min bright − max dark) / (mean bright − mean dark) of the cells once the fall of light across
+    the board has been taken out; at most 1, below 0 when the squares do not alternate.
+    contrast: mean bright − mean dark, grey levels; negative when dark and bright have changed places.
     """
 
     separation: float
