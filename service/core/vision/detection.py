@@ -142,6 +142,8 @@ def _grids(
         full = replace(grid, points=(grid.points + 0.5) / scale - 0.5)
         if not any(_lies_inside(full, stronger) for stronger in found):
             found.append(complete_grid(blurred, full, rounds))
+        if len(found) == 1 and is_whole(whole_lines(found[0]), target):
+            break
     return found
 
 

@@ -116,9 +116,8 @@ def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array) -> CornerGrid:
     row, column = np.nonzero(~np.isnan(guesses[..., 0]) & ~np.isnan(steps.square_px))
     points = np.where(np.isnan(guesses), grid.points, np.nan)
     square = steps.square_px[row, column]
-    near, proven = refine_saddles(
-        blurred, guesses[row, column], np.clip(np.rint(0.3 * square), 2, 7).astype(np.int64)
-    )
+    radii = np.clip(np.rint(0.3 * square), 2, 7).astype(np.int64)
+    near, proven = refine_saddles(blurred, guesses[row, column], radii, tolerance_px=0.02)
     proven &= np.linalg.norm(near - guesses[row, column], axis=1) < FARTHEST * square
     passed, corners = inspect_rings(blurred, near, np.clip(0.42 * square, 2.2, 10.0))
     dark = (row + column + grid.phase)[passed] % 2 == 0

@@ -27,7 +27,7 @@ class Cells:
 
 @dataclass(frozen=True)
 class LightFall:
-    """Second-order surfaces: coefficients (6,) of bright and dark over ((x, y) − middle) / scale, all in px."""
+    """Second-order surfaces: coefficients (6,) of bright and dark over ((x, y) − middle) / scale, in px."""
 
     bright: Array
     dark: Array
@@ -70,7 +70,7 @@ def fit_light(cells: Cells) -> LightFall:
 def even_out(
     blurred: FloatImage, light: LightFall, corners: Array, margin_px: int
 ) -> tuple[FloatImage, Array]:
-    """Return the image around corners (n, 2) px as levels from 0 (dark) to 1 (bright), and its origin (2,) px.
+    """Return the image around corners (n, 2) px in levels from 0 (dark) to 1 (bright), and its origin px.
 
     Where the surfaces meet or cross (far outside the board) their distance is held at a tenth of its median.
     """
