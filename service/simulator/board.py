@@ -25,6 +25,12 @@ class Plate:
     window: tuple[Steps, Steps]
     wave: tuple[Steps, Steps]
 
+    @property
+    def reach(self) -> tuple[Array, Array]:
+        """Where u and v lie on the plate or less than a square beside it: (low, high) of each."""
+        beside = np.array([-1.0, 1.0])
+        return self.outline[0].edges + beside, self.outline[1].edges + beside
+
     def sample(self, uv: Array) -> tuple[Array, Array]:
         """Return whether points (n, 2), squares, lie on the plate and in a dark square: 0 or 1 each (n,)."""
         plate, window = (_within(steps, uv) for steps in (self.outline, self.window))
