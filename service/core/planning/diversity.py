@@ -55,7 +55,7 @@ def check_diversity(diversity: Diversity) -> Diversity:
         if spread < SMALLEST_TILT_SPREAD_DEG:
             raise PoseSetInfeasible(
                 f"The boards are tilted by only {spread:.1f} degrees in {bound}; a camera is determined "
-                f"reliably only with {SMALLEST_TILT_SPREAD_DEG:g} degrees or more about each axis; widen {bound}.",
+                f"reliably only with {SMALLEST_TILT_SPREAD_DEG:g} degrees about each axis; widen {bound}.",
                 bound=bound,
                 spread_deg=spread,
             )

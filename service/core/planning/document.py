@@ -85,7 +85,10 @@ def pose_from_dict(document: Mapping[str, Any]) -> Pose:
 
 
 def _vector(document: Mapping[str, Any], name: str) -> Array:
-    vector = np.asarray(document[name], dtype=np.float64)
+    try:
+        vector = np.asarray(document[name], dtype=np.float64)
+    except (KeyError, TypeError, ValueError) as error:
+        raise PoseSetInvalid(f"A pose has no {name} of three numbers.") from error
     if vector.shape != (3,) or not np.all(np.isfinite(vector)):
         raise PoseSetInvalid(f"{name} of a pose must be three finite numbers.")
     return vector

@@ -89,10 +89,9 @@ def sample_poses(
 ) -> Poses:
     """Return `count` feasible poses of a scrambled Halton sequence; the same seed gives the same poses.
 
-    Distance and angles are spread evenly over their bounds, and the board's centre evenly over all places
-    of the image where a board of that size fits: even sampling in space would leave the image corners
-    almost empty. Raises PoseSpaceEmpty, naming the bound, when less than SMALLEST_SHARE of the poses is
-    feasible.
+    Distance and angles are spread evenly over their bounds, and boards over all places of the image where one
+    of their size fits, border included: even sampling in space would leave the image corners almost empty.
+    Raises PoseSpaceEmpty, naming the bound, when less than SMALLEST_SHARE of the poses is feasible.
     """
     check_pose_space(space)
     engine = qmc.Halton(d=6, rng=np.random.default_rng(seed))

@@ -37,7 +37,7 @@ def expected_covariance(information: Array) -> Array:
     if condition > LARGEST_CONDITION:
         raise PoseSetInfeasible(
             "These poses do not determine the camera: boards that are parallel to each other leave "
-            "focal length and distance tied. Allow tilt about both axes (yaw_deg, pitch_deg) or ask for more poses.",
+            "focal length and distance tied. Allow tilt (yaw_deg, pitch_deg) or ask for more poses.",
             condition=min(condition, 1e300),
         )
     scale = 1.0 / np.sqrt(np.diagonal(information))

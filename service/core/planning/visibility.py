@@ -11,8 +11,13 @@ from service.core.vision.camera import LENSES, Intrinsics, project, undistort
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
-# Two rounds place a board to a few pixels; the exact check rejects what still sticks out.
-PLACING_ROUNDS = 2
+# So many rounds place a board to a fraction of a pixel, for which the slack is left; a wide lens needs them
+# all.
+PLACING_ROUNDS = 4
+PLACING_SLACK_PX = 0.5
+# This share of the boards touches the left or right margin, and the upper or lower one: the optimum lies
+# there.
+BORDER_SHARE = 0.25
 # A lens polynomial is trusted up to this share of the radius where it turns back.
 LENS_SHARE = 0.98
 
@@ -63,10 +68,13 @@ def place_targets(
 ) -> Array:
     """Return translations (m, 3), m, that put targets at `places` (m, 2), 0…1 of where they fit.
 
-    rotations: (m, 3, 3); distances: (m,) of the centre from the camera, m. A place of 0 touches the left or
-    top margin, 1 the right or bottom one. Where a board does not fit at all its translation is NaN.
+    rotations: (m, 3, 3); distances: (m,) of the centre from the camera, m. Low places touch the left or top
+    margin, high ones the right or bottom one, BORDER_SHARE in all; those between are spread evenly. Where a
+    board does not fit at all its translation is NaN.
     """
     size = np.array(intrinsics.image_size, dtype=np.float64)
+    shares = np.clip((places - 0.5) / (1.0 - BORDER_SHARE) + 0.5, 0.0, 1.0)
+    margin_px += PLACING_SLACK_PX
     centre_px = np.tile((size - 1.0) / 2.0, (len(rotations), 1))
     outline = target.object_points[list(target.outer_corners)]
     translations = _translations(intrinsics, target, rotations, distances, centre_px)
@@ -74,7 +82,7 @@ def place_targets(
         pixels = project(intrinsics, rotations, translations, outline)
         low = margin_px + centre_px - pixels.min(axis=1)
         high = size - 1.0 - margin_px - (pixels.max(axis=1) - centre_px)
-        centre_px = np.where(low <= high, low + places * (high - low), np.nan)
+        centre_px = np.where(low <= high, low + shares * (high - low), np.nan)
         translations = _translations(intrinsics, target, rotations, distances, centre_px)
     return translations
 
