@@ -35,9 +35,9 @@ class LightFall:
     scale: float
 
     def levels(self, x: Array, y: Array) -> tuple[Array, Array]:
-        """Return the grey levels (...) of bright and dark squares at x, y (...) px."""
-        terms = _terms((x - self.middle[0]) / self.scale, (y - self.middle[1]) / self.scale)
-        return terms @ self.bright, terms @ self.dark
+        """Return the grey levels of bright and dark squares at x, y px, which are broadcast."""
+        x, y = (x - self.middle[0]) / self.scale, (y - self.middle[1]) / self.scale
+        return _surface(self.bright, x, y), _surface(self.dark, x, y)
 
 
 def read_cells(blurred: FloatImage, corners: Array) -> Cells:
@@ -77,12 +77,16 @@ def even_out(
     size = np.array([blurred.shape[1], blurred.shape[0]])
     low = np.maximum(np.floor(corners.min(axis=0)).astype(int) - margin_px, 0)
     high = np.minimum(np.ceil(corners.max(axis=0)).astype(int) + margin_px + 1, size)
-    y, x = np.mgrid[low[1] : high[1], low[0] : high[0]].astype(np.float64)
-    bright, dark = light.levels(x, y)
+    y, x = np.ogrid[low[1] : high[1], low[0] : high[0]]
+    bright, dark = light.levels(x.astype(np.float64), y.astype(np.float64))
     gap = bright - dark
     gap = np.maximum(gap, max(0.1 * float(np.median(gap)), 1e-3))
     part = blurred[low[1] : high[1], low[0] : high[0]]
     return np.asarray((part - dark) / gap, dtype=np.float32), low.astype(np.float64)
+
+
+def _surface(c: Array, x: Array, y: Array) -> Array:
+    return c[0] + x * (c[1] + c[3] * x) + y * (c[2] + c[5] * y) + c[4] * (x * y)
 
 
 def _terms(x: Array, y: Array) -> Array:
