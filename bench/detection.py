@@ -63,20 +63,16 @@ def run(quick: bool) -> dict[str, Any]:
 
 def table(result: Mapping[str, Any]) -> str:
     """Return the result as text."""
-    lines = [
-        f"{'finder':<10} {'found':>6} {'wrong':>6} {'mean px':>8} {'max px':>7} {'p50 ms':>7} {'p95 ms':>7}"
+    columns = ("found", "wrong", "mean_px", "max_px", "p50_ms", "p95_ms")
+    lines = [" ".join([f"{'finder':<10}", *(f"{column:>8}" for column in columns)])]
+    lines += [
+        " ".join([f"{name:<10}", *(f"{result[name][column]:>8.3f}" for column in columns)])
+        for name in ("ours", "opencv", "opencv_sb")
     ]
-    for name in ("ours", "opencv", "opencv_sb"):
-        row = result[name]
-        lines.append(
-    header = f"{'finder':<10} {'found':>6} {'wrong':>6} {'mean px':>8} {'max px':>7} {'p50 ms':>7} {'p95 ms':>7}"
-    lines = [header]
-            f" {row['p50_ms']:>7.1f} {row['p95_ms']:>7.1f}"
-        )
     for name in ("cut_off", "empty"):
         row = result[name]
         lines.append(
-            f"{name}: refused {row['refused']:.3f}, {row['p50_ms']:.1f} ms, at most {row['max_ms']:.1f} ms"
+            f"{name}: refused {row['refused']:.3f}, p50 {row['p50_ms']:.1f}, max {row['max_ms']:.1f} ms"
         )
     lines.append(f"declared too small: the right board named {result['wrong_target_share']:.3f}")
     return "\n".join(lines)
@@ -164,7 +160,7 @@ def _dark_first(image: Image, corners: Array) -> Array:
 
 
 def _cut_off(pose: Pose, prepared: PreparedScene) -> Pose:
-    """Move a board sideways until its middle lies on the border, so that about half of its corners are seen."""
+    """Move a board sideways until its middle is near the border, so that about half of it is seen."""
     width, _ = prepared.scene.intrinsics.image_size
     K = prepared.scene.intrinsics.camera_matrix
     centre = pose.rotation @ TARGET.centre + pose.tvec
