@@ -61,8 +61,8 @@ def _remedy(evidence: Evidence, causes: Causes) -> str:
         )
     if causes.lens_share > CLEAR_SHARE:
         return (
-            f"The residuals repeat with the place in the image, so the lens model {lens} does not describe "
-            "this lens (a fisheye or a very wide lens?). Choose another lens model."
+            f"The residuals repeat with the distance from the image centre, so the lens model {lens} does "
+            "not describe this lens (a fisheye or a very wide lens?). Choose another lens model."
         )
     return (
         "Check that all images are of one camera and unscaled, that the board is the declared one, rigid and "

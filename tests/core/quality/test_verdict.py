@@ -90,7 +90,7 @@ def test_a_lens_that_the_model_does_not_describe_is_called_so() -> None:
         views.append(replace(view, detection=replace(view.detection, image_points=points)))
     found = measured(judge(views), "rms_px")
     assert found.verdict is Verdict.FAIL
-    assert "place in the image" in found.advice
+    assert "lens model pinhole5" in found.advice
 
 
 def test_a_blurred_view_is_named() -> None:
