@@ -15,7 +15,7 @@ from service.core.errors import DegenerateViews, IntrinsicsInvalid
 from service.core.vision.camera import Intrinsics, parameter_names, project
 from service.core.vision.levenberg_marquardt import Fit
 from service.core.vision.multi_start import AGREEMENT_PX, Ends, Problem, solve_from_starts
-from service.core.vision.normal_equations import reduce
+from service.core.vision.normal_equations import reduce, unit_scale
 from service.core.vision.transforms import Array, Pose, rotation_vector
 from service.core.vision.view_stack import View, stack_views
 
@@ -151,13 +151,21 @@ def _rms(problem: Problem, fit: Fit) -> float:
 def _cofactor(problem: Problem, fit: Fit) -> Array:
     """Return (JᵀJ)⁻¹ of the parameters (p, p), zero where fixed, or raise DegenerateViews."""
     cofactor = np.zeros((len(fit.estimate.vector),) * 2)
-    information = reduce(fit.equations).information.sum(axis=0)
-    scale = 1.0 / np.sqrt(np.diagonal(information))
-    scaled = information * np.outer(scale, scale)
-    if not (np.all(np.isfinite(scaled)) and np.linalg.cond(scaled) < LARGEST_CONDITION):
+    try:
+        cofactor[np.ix_(problem.free, problem.free)] = _inverse(reduce(fit.equations).information.sum(axis=0))
+    except np.linalg.LinAlgError as error:
         raise DegenerateViews(
             "The views do not determine all parameters; add views with the target tilted in different "
             "directions, near and far, all over the image, or fix the parameters that are not needed."
-        )
-    cofactor[np.ix_(problem.free, problem.free)] = np.linalg.inv(scaled) * np.outer(scale, scale)
+        ) from error
     return cofactor
+
+
+def _inverse(information: Array) -> Array:
+    """Return the inverse of an information matrix, or raise LinAlgError where rounding alone fills it."""
+    scale = unit_scale(information)
+    scaled = information * np.outer(scale, scale)
+    if np.linalg.cond(scaled) > LARGEST_CONDITION:
+        raise np.linalg.LinAlgError("the information is singular")
+    inverse: Array = np.linalg.inv(scaled) * np.outer(scale, scale)
+    return inverse

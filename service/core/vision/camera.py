@@ -141,7 +141,7 @@ def _by_rotation(turned: Array, by_point: Array) -> Array:
     return out
 
 
-def undistort(intrinsics: Intrinsics, image_points: Array, iterations: int = 30) -> Array:
+def undistort(intrinsics: Intrinsics, image_points: Array, iterations: int = 50) -> Array:
     """Return ideal image-plane coordinates (..., 2) of pixels (..., 2): the inverse of the projection.
 
     Newton's method on the lens's own Jacobian, which converges in the image corner where a fixed-point
@@ -157,16 +157,30 @@ def undistort(intrinsics: Intrinsics, image_points: Array, iterations: int = 30)
         if not np.any(np.abs(residual) > 1e-13):
             break
         by_xy, _ = model.distort_jacobians(ideal, vector[4:])
-        step = _solve_2x2(by_xy, residual)
-        ideal = _inside(ideal + step, limit)
+        ideal = _before_fold(ideal, _solve_2x2(by_xy, residual), limit)
     good = np.linalg.norm(wanted - model.distort(ideal, vector[4:]), axis=-1, keepdims=True) < 1e-9
     return np.where(good, ideal, np.nan)
 
 
 def _inside(points: Array, radius: float) -> Array:
-    """Pull points (..., 2) back to a radius, so that an iteration stays where the lens is monotone."""
+    """Pull points (..., 2) back to a radius."""
     length = np.linalg.norm(points, axis=-1, keepdims=True)
-    return np.where(length > radius, points * (radius / np.maximum(length, 1e-300)), points)
+    inside: Array = points * np.minimum(1.0, radius / np.maximum(length, 1e-12))
+    return inside
+
+
+def _before_fold(points: Array, step: Array, limit: float) -> Array:
+    """Return points (..., 2) after a step, or half-way to the fold where the step leads beyond it.
+
+    At the fold itself the Jacobian is singular, and an iteration that is put there stays there.
+    """
+    moved = points + step
+    length = np.linalg.norm(moved, axis=-1, keepdims=True)
+    beyond = length >= limit
+    if not np.any(beyond):
+        return moved
+    halfway = 0.5 * (np.linalg.norm(points, axis=-1, keepdims=True) + limit)
+    return np.where(beyond, moved * (halfway / np.maximum(length, 1e-12)), moved)
 
 
 def _solve_2x2(matrix: Array, right: Array) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import parameter_names
-from service.core.vision.normal_equations import Estimate, Reduced, linearise, reduce
+from service.core.vision.normal_equations import Estimate, Reduced, linearise, reduce, unit_scale
 from service.core.vision.transforms import Array, stack_poses
 from service.core.vision.view_stack import View, stack_views
 
@@ -62,7 +62,7 @@ def leave_one_out(result: CalibrationResult, views: Sequence[View]) -> LeaveOneO
 def _steps_without(reduced: Reduced) -> Array:
     """Return the Gauss–Newton steps (v, f) to the optimum without each view; NaN where there is none."""
     total = reduced.information.sum(axis=0)
-    scale = 1.0 / np.sqrt(np.diagonal(total))
+    scale = unit_scale(total)
     remaining = (total - reduced.information) * np.outer(scale, scale)
     gradient = (reduced.gradient.sum(axis=0) - reduced.gradient) * scale
     determined = np.linalg.eigvalsh(remaining)[:, 0] > 1e-13

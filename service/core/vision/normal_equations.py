@@ -118,9 +118,20 @@ def solve_reduced(reduced: Reduced) -> tuple[Array, Array]:
     Raises LinAlgError where the parameters are undetermined.
     """
     information, gradient = reduced.information.sum(axis=0), reduced.gradient.sum(axis=0)
-    scale = 1.0 / np.sqrt(np.diagonal(information))
+    scale = unit_scale(information)
     step = scale * np.linalg.solve(information * np.outer(scale, scale), gradient * scale)
     return step, reduced.pose_alone - reduced.pose_by_parameters @ step
+
+
+def unit_scale(information: Array) -> Array:
+    """Return factors (f,) that give an information matrix (f, f) a diagonal of ones.
+
+    Raises LinAlgError where a parameter has no information at all.
+    """
+    diagonal = np.diagonal(information)
+    if not (np.all(np.isfinite(diagonal)) and np.all(diagonal > 0)):
+        raise np.linalg.LinAlgError("a parameter is undetermined")
+    return np.asarray(1.0 / np.sqrt(diagonal))
 
 
 def _damped(matrices: Array, damping: float) -> Array:

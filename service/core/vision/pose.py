@@ -12,15 +12,19 @@ import numpy as np
 
 from service.core.errors import PoseUndetermined
 from service.core.vision.camera import Intrinsics, project_with_jacobians, undistort
-from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
+from service.core.vision.transforms import Array, Pose, angle_between, rotation_matrix, rotation_vector
 
 CORNERS_NEEDED = 4
 ITERATIONS = 30
+SAME_POSE_RAD = 1e-2
 
 
 @dataclass(frozen=True)
 class PoseEstimate:
-    """A pose `T_cam_board`, its reprojection rms, and that of the other solution (inf if there is none)."""
+    """A pose `T_cam_board`, its reprojection rms, and that of the other solution.
+
+    The other's rms is inf where there is none: both closed forms lead to one pose once they are refined.
+    """
 
     pose: Pose
     rms_px: float
@@ -55,7 +59,8 @@ def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Ar
             "No pose before the camera explains the corners; check the target and the intrinsics."
         )
     best, other = order[0], order[-1]
-    alternative = float(rms[other]) if len(rms) > 1 else float("inf")
+    apart = float(angle_between(rotations[best], rotations[other]))
+    alternative = float(rms[other]) if apart > SAME_POSE_RAD else float("inf")
     return PoseEstimate(
         Pose(rotation_vector(rotations[best]), translations[best]), float(rms[best]), alternative
     )
@@ -91,7 +96,7 @@ def _refine(
         better = moved[0] < cost
         rotations = np.where(better[:, None, None], moved_r, rotations)
         translations = np.where(better[:, None], moved_t, translations)
-        finished = np.all(~better | (cost - moved[0] <= 1e-12 * cost)) and np.all(damping < 1.0)
+        finished = np.all(moved[0] >= cost * (1.0 - 1e-12)) and np.all(damping < 1.0)
         cost = np.where(better, moved[0], cost)
         gradient = np.where(better[:, None], moved[1], gradient)
         information = np.where(better[:, None, None], moved[2], information)
