@@ -8,6 +8,7 @@ import { words } from "../words/language";
 import { CaptureViewer } from "./capture_viewer";
 import { Facts, type Fact } from "./facts";
 import { boardTiltDeg, distanceM } from "./view_pose";
+import { ViewsTable } from "./views_table";
 
 interface Props {
   captures: readonly Capture[];
@@ -59,7 +60,12 @@ export function CapturesPanel({ captures, chosen, detail, views, onChoose }: Pro
       </ol>
       <div class="columns columns-viewer">
         <CaptureViewer capture={chosen} detail={detail} />
-        <Facts facts={factsOf(chosen, detail, view, say)} />
+        <div class="viewer-side">
+          <Facts facts={factsOf(chosen, detail, view, say)} />
+          {views.length > 0 && (
+            <ViewsTable views={views} captures={captures} chosenId={chosen.id} onChoose={onChoose} />
+          )}
+        </div>
       </div>
     </section>
   );
@@ -93,7 +99,7 @@ function Thumbnail({ capture, view, chosen, onChoose }: ThumbnailProps): JSX.Ele
         )}
         <span class="thumbnail-line">
           <b>{capture.number}</b>
-          <span>{view === undefined ? "" : withUnit(fixed(view.rms_px, 2), "px")}</span>
+          <span>{view === undefined ? "" : withUnit(fixed(view.rms_px, 3), "px")}</span>
         </span>
       </button>
     </li>

@@ -9,7 +9,6 @@ import { drawScatter } from "../drawing/scatter_drawing";
 import { fixed } from "../format/numbers";
 import { language, words } from "../words/language";
 import type { CaptureDetails } from "./capture_details";
-import { ViewsTable } from "./views_table";
 
 const ARROW_SHARE = 0.02;
 const NONE: readonly CornerResidual[] = [];
@@ -19,10 +18,9 @@ interface Props {
   captures: readonly Capture[];
   details: CaptureDetails;
   chosenId: string;
-  onChoose: (id: string) => void;
 }
 
-export function ResidualsPanel({ result, captures, details, chosenId, onChoose }: Props): JSX.Element {
+export function ResidualsPanel({ result, captures, details, chosenId }: Props): JSX.Element {
   const say = words.value;
   const byId = useMemo(() => {
     const solved = [...details.values()].filter((detail) => detail.reprojected !== null);
@@ -44,7 +42,6 @@ export function ResidualsPanel({ result, captures, details, chosenId, onChoose }
       <div class="columns columns-residuals">
         <Scatter all={all} chosen={chosen} result={result} number={number} />
         <Field all={all} chosen={chosen} result={result} />
-        <ViewsTable views={result.views} captures={captures} chosenId={chosenId} onChoose={onChoose} />
       </div>
     </section>
   );

@@ -12,6 +12,7 @@ import { CapturesPanel } from "./captures_panel";
 import { GatesTable } from "./gates_table";
 import { IntrinsicsTable } from "./intrinsics_table";
 import { ResidualsPanel } from "./residuals_panel";
+import { useTitle } from "./use_title";
 import { VerdictBanner } from "./verdict_banner";
 
 const REFRESH_MS = 2000;
@@ -39,6 +40,7 @@ function Run({ run }: { run: RunDetail }): JSX.Element {
   const [chosenId, setChosenId] = useState<string | null>(null);
   const chosen = captures.find((capture) => capture.id === chosenId) ?? captures[0];
   const { result } = run;
+  useTitle(run.serial);
   return (
     <>
       <VerdictBanner run={run} />
@@ -62,13 +64,7 @@ function Run({ run }: { run: RunDetail }): JSX.Element {
       {result === null || chosen === undefined ? (
         run.state === "open" && <p class="muted">{say.run_result_when_finished}</p>
       ) : (
-        <ResidualsPanel
-          result={result}
-          captures={captures}
-          details={details}
-          chosenId={chosen.id}
-          onChoose={setChosenId}
-        />
+        <ResidualsPanel result={result} captures={captures} details={details} chosenId={chosen.id} />
       )}
     </>
   );

@@ -10,6 +10,7 @@ import { Empty, Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
 import { addressOf } from "./route";
 import { RunsTable } from "./runs_table";
+import { useTitle } from "./use_title";
 
 const PAGE_SIZE = 50;
 const REFRESH_MS = 3000;
@@ -17,6 +18,7 @@ const refresh = (): number => REFRESH_MS;
 
 export function RunsPage({ serial }: { serial: string }): JSX.Element {
   const say = words.value;
+  useTitle(say.runs_title);
   const [walk, setWalk] = useState<Walk>(FIRST_PAGE);
   useEffect(() => setWalk(FIRST_PAGE), [serial]);
   const cursor = shownCursor(walk);

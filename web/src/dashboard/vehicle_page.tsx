@@ -6,12 +6,14 @@ import { useResource } from "../api/use_resource";
 import { Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
 import { RunsTable } from "./runs_table";
+import { useTitle } from "./use_title";
 
 const REFRESH_MS = 3000;
 const refresh = (): number => REFRESH_MS;
 
 export function VehiclePage({ serial }: { serial: string }): JSX.Element {
   const say = words.value;
+  useTitle(serial);
   const vehicle = useResource(
     useCallback((signal: AbortSignal) => getVehicle(serial, signal), [serial]),
     refresh,

@@ -15,8 +15,10 @@ export interface CaptureScene {
   chosen: number | null;
 }
 
-const CIRCLE_PX = 6;
-const CROSS_PX = 4.5;
+const CIRCLE_PX = 8;
+const CROSS_PX = 3.5;
+const FIRST_PX = 13;
+const CHOSEN_PX = 19;
 /** From this many canvas px per image px on, single pixels are shown as squares. */
 const CRISP_FROM = 3;
 
@@ -33,7 +35,7 @@ export function drawCapture(
   const at = (point: Point): Point => toCanvas(view, point);
   if (scene.show.detected) {
     const circles = pathOf(scene.detected.map(at), circle);
-    stroke(context, circles, 1.5, colours("mark-detected"), colours("mark-halo"));
+    stroke(context, circles, 2, colours("mark-detected"), colours("mark-halo"));
     drawFirstCorner(context, scene.detected[0], at, colours);
   }
   if (scene.show.reprojected) {
@@ -41,7 +43,7 @@ export function drawCapture(
       scene.residuals.map((r) => at(r.reprojected)),
       cross,
     );
-    stroke(context, crosses, 1.5, colours("mark-reprojected"), colours("mark-halo"));
+    stroke(context, crosses, 2, colours("mark-reprojected"), colours("mark-halo"));
   }
   if (scene.show.residuals) drawArrows(context, scene, at, colours);
   drawChosen(context, scene, at, colours);
@@ -82,7 +84,7 @@ function stroke(
   halo: string,
 ): void {
   context.lineCap = "round";
-  context.globalAlpha = 0.75;
+  context.globalAlpha = 0.6;
   context.strokeStyle = halo;
   context.lineWidth = width + 2;
   context.stroke(path);
@@ -118,8 +120,8 @@ function drawFirstCorner(
   if (first === undefined) return;
   const { x, y } = at(first);
   const path = new Path2D();
-  path.rect(x - 10, y - 10, 20, 20);
-  stroke(context, path, 1.5, colours("mark-detected"), colours("mark-halo"));
+  path.rect(x - FIRST_PX, y - FIRST_PX, 2 * FIRST_PX, 2 * FIRST_PX);
+  stroke(context, path, 2, colours("mark-detected"), colours("mark-halo"));
 }
 
 function drawChosen(
@@ -132,6 +134,6 @@ function drawChosen(
   if (chosen === undefined) return;
   const { x, y } = at(chosen);
   const path = new Path2D();
-  path.arc(x, y, 13, 0, 2 * Math.PI);
+  path.arc(x, y, CHOSEN_PX, 0, 2 * Math.PI);
   stroke(context, path, 1.5, "#ffffff", colours("mark-halo"));
 }

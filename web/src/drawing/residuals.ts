@@ -63,7 +63,7 @@ export function nearest(points: readonly Point[], at: Point, reach: number): num
   return best;
 }
 
-export const GAINS = [1, 10, 20, 50, 100, 200, 500] as const;
+export const GAINS = [1, 10, 20, 50, 100, 200, 500, 1000, 2000] as const;
 
 /** The largest gain with which a typical arrow stays shorter than `length` image px. */
 export function gainFor(rms: number, length: number): number {

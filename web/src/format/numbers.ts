@@ -17,12 +17,20 @@ export function fixed(
   return text.replace("-", "−");
 }
 
-/** As many digits as give about three that count: 0.00084, 0.163, 12.4, 1350. */
+const TINY = 1e-4;
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** As many digits as give about three that count: 1.2·10⁻⁶, 0.00084, 0.163, 12.4, 1350. */
 export function significant(value: number | null | undefined, locale: string = language.value): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return NOTHING;
   if (value === 0 || Number.isInteger(value)) return fixed(value, 0, locale);
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
+  if (Math.abs(value) < TINY) return `${fixed(value / 10 ** magnitude, 1, locale)}·10⁻${raised(-magnitude)}`;
   return fixed(value, Math.min(6, Math.max(0, 2 - magnitude)), locale);
+}
+
+function raised(exponent: number): string {
+  return String(exponent).replace(/\d/g, (digit) => RAISED.charAt(Number(digit)));
 }
 
 /** Digits after the mark that make an estimate end where its sd begins: two digits of the sd. */

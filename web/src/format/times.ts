@@ -1,7 +1,14 @@
 // Times for people: the clock of today, the date of other days. The wire has UTC, the screen the local zone.
-import { language } from "../words/language";
+import { language, type Language } from "../words/language";
 
-export function when(iso: string, now: Date = new Date(), locale: string = language.value): string {
+/** Of the English orders of day and month only the one that cannot be misread. */
+const LOCALES: Readonly<Record<Language, string>> = { en: "en-GB", de: "de-DE" };
+
+function spoken(): string {
+  return LOCALES[language.value];
+}
+
+export function when(iso: string, now: Date = new Date(), locale: string = spoken()): string {
   const time = new Date(iso);
   const clock = time.toLocaleTimeString(locale, { hour: "2-digit", minute: "2-digit", hourCycle: "h23" });
   if (time.toDateString() === now.toDateString()) return clock;
@@ -9,7 +16,7 @@ export function when(iso: string, now: Date = new Date(), locale: string = langu
   return `${day}, ${clock}`;
 }
 
-export function exactly(iso: string, locale: string = language.value): string {
+export function exactly(iso: string, locale: string = spoken()): string {
   return new Date(iso).toLocaleString(locale, {
     day: "2-digit",
     month: "short",
@@ -21,7 +28,7 @@ export function exactly(iso: string, locale: string = language.value): string {
   });
 }
 
-export function clock(time: Date, locale: string = language.value): string {
+export function clock(time: Date, locale: string = spoken()): string {
   return time.toLocaleTimeString(locale, {
     hour: "2-digit",
     minute: "2-digit",

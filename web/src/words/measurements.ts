@@ -5,24 +5,34 @@ import type { Language } from "./language";
 type Name = Record<Language, string>;
 
 const NAMES: Readonly<Record<string, Name>> = {
+  wrong_target: { en: "Images of another board", de: "Bilder eines anderen Targets" },
+  refused_images: { en: "Refused images", de: "Abgelehnte Bilder" },
+  facing: { en: "Boards seen from behind", de: "Von hinten gesehene Targets" },
+  nearest_corner: { en: "Nearest corner in front", de: "Nächste Ecke vor der Kamera" },
   parity_separation: { en: "Black and white apart", de: "Abstand Schwarz–Weiß" },
   contrast: { en: "Contrast", de: "Kontrast" },
   edge_width_px: { en: "Edge width 10–90 %", de: "Kantenbreite 10–90 %" },
   quadrant_ratio: { en: "Worst quadrant / centre", de: "Schlechtester Quadrant / Mitte" },
-  match_share: { en: "Match to the asked pose", de: "Abweichung von der Sollpose" },
+  missing_poses: { en: "Poses not taken", de: "Fehlende Posen" },
+  match_px: { en: "Match to the asked pose", de: "Abweichung von der Sollpose" },
   view_separation_px: { en: "Distance of nearest views", de: "Abstand der nächsten Ansichten" },
+  image_coverage: { en: "Coverage of the image", de: "Abdeckung des Bildes" },
   coverage: { en: "Coverage of the zone", de: "Abdeckung der Zone" },
   rms_px: { en: "RMS error", de: "RMS-Fehler" },
   smallest_rms_px: { en: "RMS plausible", de: "RMS plausibel" },
   worst_view_ratio: { en: "Worst / median view", de: "Schlechteste / mittlere Ansicht" },
   outlier_share: { en: "Outliers beyond 4σ", de: "Ausreißer über 4σ" },
+  board_bend: { en: "Bend of the board", de: "Biegung des Targets" },
   focal_sd_share: { en: "sd of focal length", de: "Std.-Abw. Brennweite" },
   centre_sd_px: { en: "sd of principal point", de: "Std.-Abw. Bildhauptpunkt" },
   zone_mapping_px: { en: "Mapping error, zone", de: "Abbildungsfehler, Zone" },
   valid_mapping_px: { en: "Mapping error, worst", de: "Abbildungsfehler, größter" },
+  converged: { en: "Optimum proven", de: "Optimum bewiesen" },
   agreement_px: { en: "Agreement of starts", de: "Übereinstimmung der Starts" },
   monotone_ratio: { en: "Distortion monotone to", de: "Verzeichnung monoton bis" },
   square_pixels: { en: "|fx / fy − 1|", de: "|fx / fy − 1|" },
+  paper_score: { en: "Score S of the paper", de: "Gütezahl S der Vorlage" },
+  nominal_difference_px: { en: "Distance from nominal", de: "Abstand vom Nennwert" },
 };
 
 export function measurementName(name: string, language: Language): string {
