@@ -16,13 +16,13 @@ from typing import Any
 from uuid import UUID
 
 import uvicorn
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from service import __version__
 from service.adapters.clock_system import SystemClock
 from service.api.problems import problem_body, status_of
 from service.api.schemas import write_schemas
-from service.app import create_app, open_database
+from service.app import MOST_REQUESTS, create_app, open_database
 from service.core.errors import BadRequest, ServiceError
 from service.core.planning.document import pose_set_to_dict
 from service.core.planning.plan import plan_pose_set
@@ -39,6 +39,7 @@ from service.usecases.folder_report import report_document, report_text
 from service.usecases.paging import PageRequest
 from service.usecases.plan_report import plan_text
 from service.usecases.sku_file import read_sku_file
+from service.usecases.text import Label
 
 WHO = "command line"
 KEYS_SHOWN = 1000
@@ -168,6 +169,7 @@ def _serve(arguments: argparse.Namespace) -> int:
         port=settings.port,
         log_config=None,
         timeout_graceful_shutdown=round(settings.shutdown_grace_s),
+        limit_concurrency=MOST_REQUESTS,
     )
     return DONE
 
@@ -202,6 +204,12 @@ def _add_keys(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_key(arguments: argparse.Namespace) -> int:
+    try:
+        TypeAdapter(Label).validate_python(arguments.name)
+    except ValidationError as error:
+        raise BadRequest(
+            f"The name cannot be used: {error.errors()[0]['msg']}. Choose another one."
+        ) from error
     with _database(arguments) as database, database.write() as session:
         made = create_key(session, arguments.name, Role(arguments.role), WHO, SystemClock().now())
     # The key alone goes to stdout, so that a script can take it.
