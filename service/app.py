@@ -24,6 +24,10 @@ from service.storage.migration import check_at_head, upgrade
 from service.usecases.access import create_first_key
 from service.usecases.planning import PLAN_POSE_SET, plan_pose_set_job
 
+# A request's transaction outlasts the thread that began it: its commit needs one again. If all threads could
+# wait for the database, none would be left for whoever holds it; so there is one for every request.
+MOST_REQUESTS = 1000
+
 log = logging.getLogger(__name__)
 
 
@@ -32,6 +36,7 @@ def create_app(settings: Settings) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        to_thread.current_default_thread_limiter().total_tokens = MOST_REQUESTS
         database = await to_thread.run_sync(open_database, settings)
         clock = SystemClock()
         jobs = create_jobs(settings, database, clock)
