@@ -67,7 +67,7 @@ def test_a_passed_run_shows_verdict_gates_and_intrinsics_of_its_result(
     assert float(fx.nth(0).inner_text()) == pytest.approx(result["intrinsics"]["fx"], abs=0.06)
     assert float(fx.nth(1).inner_text().removeprefix("± ")) == pytest.approx(result["sd"]["fx"], rel=0.1)
     expect(page.locator(".views tbody tr")).to_have_count(len(result["views"]))
-    expect(page.locator(".residuals-panel .panel-head")).to_contain_text("every corner of every view")
+    expect(page.locator(".residuals-panel .panel-head")).to_contain_text("648 corners")
     page.screenshot(path=shots / "run-pass.png", full_page=True)
     assert (watch.errors, watch.outside, watch.refused) == ([], [], [])
 
@@ -92,7 +92,7 @@ def test_a_failed_run_says_why_above_everything_else(
 
 def test_images_and_drawings_are_really_drawn(page: Page, serving: Serving, runs: Runs, shots: Path) -> None:
     open_run(page, serving, runs.passing["run_id"])
-    expect(page.locator(".residuals-panel .panel-head")).to_contain_text("every corner of every view")
+    expect(page.locator(".residuals-panel .panel-head")).to_contain_text("648 corners")
 
     loaded = "images => images.map(image => image.complete && image.naturalWidth)"
     assert set(page.locator(".thumbnail img").evaluate_all(loaded)) == {1280}

@@ -1,33 +1,36 @@
 // The run's images: a strip to choose from, the chosen one large, and what is known about it.
 import { type JSX } from "preact";
-import type { Capture, CaptureDetail, ViewResult } from "../generated/api";
+import type { Capture, CaptureDetail, Result, ViewResult } from "../generated/api";
 import { fixed, significant, withUnit } from "../format/numbers";
 import { useImage } from "../shell/images";
 import type { Words } from "../words/en";
 import { words } from "../words/language";
 import { CaptureViewer } from "./capture_viewer";
 import { Facts, type Fact } from "./facts";
+import { ResidualScatter } from "./residual_scatter";
+import type { Residuals } from "./run_residuals";
 import { boardTiltDeg, distanceM } from "./view_pose";
-import { ViewsTable } from "./views_table";
 
 interface Props {
   captures: readonly Capture[];
   chosen: Capture;
   detail: CaptureDetail | null;
-  views: readonly ViewResult[];
+  result: Result | null;
+  residuals: Residuals;
   onChoose: (id: string) => void;
 }
 
-export function CapturesPanel({ captures, chosen, detail, views, onChoose }: Props): JSX.Element {
+export function CapturesPanel({ captures, chosen, detail, result, residuals, onChoose }: Props): JSX.Element {
   const say = words.value;
   const at = captures.indexOf(chosen);
   const step = (by: number): void => {
     const next = captures[at + by];
     if (next !== undefined) onChoose(next.id);
   };
+  const views = result?.views ?? [];
   const view = views.find((candidate) => candidate.capture_id === chosen.id);
   return (
-    <section class="panel captures-panel" aria-labelledby="captures-title">
+    <section class="panel captures-panel" id="captures" aria-labelledby="captures-title">
       <div class="panel-head">
         <h2 id="captures-title">{say.captures_title}</h2>
         <div class="stepper">
@@ -62,8 +65,13 @@ export function CapturesPanel({ captures, chosen, detail, views, onChoose }: Pro
         <CaptureViewer capture={chosen} detail={detail} />
         <div class="viewer-side">
           <Facts facts={factsOf(chosen, detail, view, say)} />
-          {views.length > 0 && (
-            <ViewsTable views={views} captures={captures} chosenId={chosen.id} onChoose={onChoose} />
+          {result !== null && (
+            <ResidualScatter
+              all={residuals.all}
+              chosen={residuals.byCapture.get(chosen.id) ?? []}
+              number={chosen.number}
+              sigma={result.sigma_px}
+            />
           )}
         </div>
       </div>

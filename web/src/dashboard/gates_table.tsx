@@ -2,11 +2,11 @@
 import { type JSX } from "preact";
 import { useState } from "preact/hooks";
 import type { Measurement } from "../generated/api";
-import { LIMIT_AT, marginBar } from "../drawing/margin";
-import { percent, significant, withUnit } from "../format/numbers";
+import { barEnd, LIMIT_AT, usedShare } from "../drawing/margin";
+import { percent, plain, significant, withUnit } from "../format/numbers";
 import type { Words } from "../words/en";
 import { language, words } from "../words/language";
-import { gateName, measurementName } from "../words/measurements";
+import { gateName, measurementName, unitName } from "../words/measurements";
 import { groupGates, type GateGroup } from "./reasons";
 import { StandingTag } from "./runs_table";
 
@@ -75,7 +75,8 @@ function Group({ group, say }: { group: GateGroup; say: Words }): JSX.Element {
 }
 
 function Row({ measurement, say }: { measurement: Measurement; say: Words }): JSX.Element {
-  const { name, value, limit, unit, comparison, verdict, advice } = measurement;
+  const { name, value, limit, comparison, verdict, advice } = measurement;
+  const unit = unitName(measurement.unit, language.value);
   return (
     <tr class={`gate gate-${verdict}`}>
       <td>
@@ -89,7 +90,7 @@ function Row({ measurement, say }: { measurement: Measurement; say: Words }): JS
       </th>
       <td class="number">{value === null ? say.not_determined : withUnit(significant(value), unit)}</td>
       <td class="number muted">
-        {limit === null ? say.no_limit : `${sign(comparison)} ${withUnit(significant(limit), unit)}`}
+        {limit === null ? say.no_limit : `${sign(comparison)} ${withUnit(plain(limit), unit)}`}
       </td>
       <td class="bar-column">
         <Bar measurement={measurement} say={say} />
@@ -106,26 +107,20 @@ function sign(comparison: string): string {
 }
 
 function Bar({ measurement, say }: { measurement: Measurement; say: Words }): JSX.Element | null {
-  const bar = marginBar(measurement.value, measurement.limit, measurement.comparison);
-  if (bar === null) return null;
-  const used = say.margin_used(percent(bar.share));
+  const share = usedShare(measurement.value, measurement.limit, measurement.comparison);
+  if (share === null) return null;
+  const used = say.margin_used(Number.isFinite(share) ? percent(share) : "∞");
   const tick = 100 * LIMIT_AT;
   return (
     <svg class="margin-bar" viewBox="0 0 100 14" preserveAspectRatio="none" role="img" aria-label={used}>
       <title>{used}</title>
       <rect class="margin-ground" x="0" y="4" width="100" height="6" />
-      <rect
-        class="margin-good"
-        x={bar.good === "left" ? 0 : tick}
-        y="4"
-        width={bar.good === "left" ? tick : 100 - tick}
-        height="6"
-      />
+      <rect class="margin-good" x="0" y="4" width={tick} height="6" />
       <rect
         class={`margin-value margin-${measurement.verdict}`}
         x="0"
         y="4"
-        width={100 * bar.value}
+        width={100 * barEnd(share)}
         height="6"
       />
       <rect class="margin-limit" x={tick - 0.7} y="0" width="1.4" height="14" />

@@ -12,6 +12,7 @@ import { CapturesPanel } from "./captures_panel";
 import { GatesTable } from "./gates_table";
 import { IntrinsicsTable } from "./intrinsics_table";
 import { ResidualsPanel } from "./residuals_panel";
+import { residualsOf } from "./run_residuals";
 import { useTitle } from "./use_title";
 import { VerdictBanner } from "./verdict_banner";
 
@@ -37,17 +38,31 @@ function Run({ run }: { run: RunDetail }): JSX.Element {
     [run.capture_list],
   );
   const details = useCaptureDetails(captures, run.state);
+  const residuals = useMemo(() => residualsOf(details), [details]);
   const [chosenId, setChosenId] = useState<string | null>(null);
   const chosen = captures.find((capture) => capture.id === chosenId) ?? captures[0];
   const { result } = run;
   useTitle(run.serial);
+  const chooseAndShow = (id: string): void => {
+    setChosenId(id);
+    document.getElementById("captures")?.scrollIntoView({ block: "start" });
+  };
   return (
     <>
       <VerdictBanner run={run} />
       {result !== null && (
         <div class="columns columns-gates">
           <GatesTable gates={result.gates} />
-          <IntrinsicsTable result={result} />
+          <div class="column">
+            <IntrinsicsTable result={result} />
+            <ResidualsPanel
+              result={result}
+              captures={captures}
+              residuals={residuals}
+              chosenId={chosen?.id ?? ""}
+              onChoose={chooseAndShow}
+            />
+          </div>
         </div>
       )}
       {chosen === undefined ? (
@@ -57,15 +72,12 @@ function Run({ run }: { run: RunDetail }): JSX.Element {
           captures={captures}
           chosen={chosen}
           detail={details.get(chosen.id) ?? null}
-          views={result?.views ?? []}
+          result={result}
+          residuals={residuals}
           onChoose={setChosenId}
         />
       )}
-      {result === null || chosen === undefined ? (
-        run.state === "open" && <p class="muted">{say.run_result_when_finished}</p>
-      ) : (
-        <ResidualsPanel result={result} captures={captures} details={details} chosenId={chosen.id} />
-      )}
+      {run.state === "open" && <p class="muted">{say.run_result_when_finished}</p>}
     </>
   );
 }

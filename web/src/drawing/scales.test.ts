@@ -1,5 +1,4 @@
 import { describe, expect, it } from "vitest";
-import { LIMIT_AT, marginBar } from "./margin";
 import { digitsOfStep, median, roundStep, symmetricTicks } from "./scales";
 
 describe("steps of an axis", () => {
@@ -30,24 +29,5 @@ describe("the median", () => {
     expect(median([3, 1, 2])).toBe(2);
     expect(median([4, 1, 2, 3])).toBe(2.5);
     expect(median([])).toBeNaN();
-  });
-});
-
-describe("the bar of a margin", () => {
-  it("ends at the limit's tick when the value is at its limit", () => {
-    expect(marginBar(0.35, 0.35, "<=")).toEqual({ value: LIMIT_AT, share: 1, good: "left" });
-    expect(marginBar(40, 40, ">=")).toEqual({ value: LIMIT_AT, share: 1, good: "right" });
-  });
-
-  it("does not leave its frame", () => {
-    expect(marginBar(1000, 1, "<=")?.value).toBe(1);
-    expect(marginBar(-3, 1, "<=")?.value).toBe(0);
-  });
-
-  it("is not drawn where there is nothing to compare", () => {
-    expect(marginBar(null, 1, "<=")).toBeNull();
-    expect(marginBar(1, null, "<=")).toBeNull();
-    expect(marginBar(1, 1, "==")).toBeNull();
-    expect(marginBar(0, 0, "<=")).toBeNull();
   });
 });

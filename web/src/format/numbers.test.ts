@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { digitsForSd, fixed, percent, signed, significant, withUnit } from "./numbers";
+import { digitsForSd, fixed, percent, plain, signed, significant, withUnit } from "./numbers";
 
 describe("numbers", () => {
   it("have the language's decimal mark and a real minus sign", () => {
@@ -38,6 +38,10 @@ describe("numbers", () => {
       expect(withUnit(fixed(value, 2, "en"), "px")).toBe("–");
     },
   );
+
+  it("of limits are shown as they were written", () => {
+    expect([plain(0.001, "en"), plain(1.02, "de"), plain(40, "en")]).toEqual(["0.001", "1,02", "40"]);
+  });
 
   it("end where their uncertainty begins", () => {
     expect(digitsForSd(0.34)).toBe(2);

@@ -33,6 +33,11 @@ function raised(exponent: number): string {
   return String(exponent).replace(/\d/g, (digit) => RAISED.charAt(Number(digit)));
 }
 
+/** A number as somebody wrote it, such as a limit: no digit is added. */
+export function plain(value: number, locale: string = language.value): string {
+  return value.toLocaleString(locale, { maximumFractionDigits: 6, useGrouping: false }).replace("-", "−");
+}
+
 /** Digits after the mark that make an estimate end where its sd begins: two digits of the sd. */
 export function digitsForSd(sd: number | null | undefined): number {
   if (sd === null || sd === undefined || !Number.isFinite(sd) || sd <= 0) return 4;

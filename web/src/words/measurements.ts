@@ -7,7 +7,7 @@ type Name = Record<Language, string>;
 const NAMES: Readonly<Record<string, Name>> = {
   wrong_target: { en: "Images of another board", de: "Bilder eines anderen Targets" },
   refused_images: { en: "Refused images", de: "Abgelehnte Bilder" },
-  facing: { en: "Boards seen from behind", de: "Von hinten gesehene Targets" },
+  facing: { en: "Facing the camera (R33)", de: "Der Kamera zugewandt (R33)" },
   nearest_corner: { en: "Nearest corner in front", de: "Nächste Ecke vor der Kamera" },
   parity_separation: { en: "Black and white apart", de: "Abstand Schwarz–Weiß" },
   contrast: { en: "Contrast", de: "Kontrast" },
@@ -34,6 +34,18 @@ const NAMES: Readonly<Record<string, Name>> = {
   paper_score: { en: "Score S of the paper", de: "Gütezahl S der Vorlage" },
   nominal_difference_px: { en: "Distance from nominal", de: "Abstand vom Nennwert" },
 };
+
+const UNITS: Readonly<Record<string, Name>> = {
+  "grey levels": { en: "grey levels", de: "Graustufen" },
+  images: { en: "images", de: "Bilder" },
+  poses: { en: "poses", de: "Posen" },
+  squares: { en: "squares", de: "Felder" },
+};
+
+/** Words among the units in the language; px, m and the like stay as they are. */
+export function unitName(unit: string, language: Language): string {
+  return UNITS[unit]?.[language] ?? unit;
+}
 
 export function measurementName(name: string, language: Language): string {
   return NAMES[name]?.[language] ?? name.replaceAll("_", " ");
