@@ -10,6 +10,7 @@ from service.storage.database import Database
 from service.storage.migration import upgrade
 from tests.databases import KINDS, delete_rows, empty_postgresql, migrated_file, sqlite_copy
 from tests.fakes import FakeClock
+from tests.plant import Plant, running_plant
 
 # --- databases ---
 
@@ -74,3 +75,20 @@ def database(database_address: str) -> Iterator[Database]:
 def clock() -> FakeClock:
     """A clock that stands still until it is moved."""
     return FakeClock()
+
+
+# --- the service ---
+
+
+@pytest.fixture
+def plant(database_address: str, tmp_path: Path) -> Iterator[Plant]:
+    """The service with a key of each role, on SQLite and then on PostgreSQL."""
+    with running_plant(database_address, tmp_path) as running:
+        yield running
+
+
+@pytest.fixture
+def small_plant(sqlite_address: str, tmp_path: Path) -> Iterator[Plant]:
+    """The service with a key of each role on SQLite, where the database makes no difference."""
+    with running_plant(sqlite_address, tmp_path) as running:
+        yield running

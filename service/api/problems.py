@@ -13,7 +13,7 @@ from uuid import uuid4
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 
 from service.core.errors import (
@@ -71,6 +71,23 @@ class FieldError(BaseModel):
 
 class Problem(BaseModel):
     """A problem document (RFC 9457)."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "type": "/problems/too-few-views",
+                    "title": "Too few usable views",
+                    "status": 422,
+                    "detail": "2 usable views and 3 are needed. Take more images in different poses.",
+                    "instance": "/api/v1/runs/019a2b3c-11aa-7bb2-9cc3-44dd55ee66ff/finish",
+                    "code": "too-few-views",
+                    "facts": {"views_found": 2, "views_needed": 3},
+                    "trace_id": "377b51ad50474c82979819fdeb85d92a",
+                }
+            ]
+        }
+    )
 
     type: str = Field(description="Address of the page that explains the code.")
     title: str

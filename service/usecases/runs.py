@@ -148,7 +148,7 @@ def view_runs(session: Session, rows: Sequence[RunRow], **details: Any) -> list[
     counts = session.execute(
         select(CaptureRow.run_id, func.count()).where(CaptureRow.run_id.in_(ids)).group_by(CaptureRow.run_id)
     )
-    captures: dict[UUID, int] = dict(counts.tuples().all())
+    captures: dict[UUID, int] = dict(counts.all())
     return [
         RunView(
             id=row.id,
@@ -190,4 +190,4 @@ def _references(session: Session, revision_ids: set[UUID]) -> dict[UUID, SkuRefe
 
 def _column(session: Session, key: Any, value: Any, wanted: Any) -> dict[Any, Any]:
     keys = [one for one in wanted if one is not None]
-    return dict(session.execute(select(key, value).where(key.in_(keys))).tuples().all())
+    return dict(session.execute(select(key, value).where(key.in_(keys))).all())

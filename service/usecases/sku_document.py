@@ -7,7 +7,15 @@ Here: its fields, their checks and the way into the core's values. Not here: rev
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    JsonValue,
+    field_validator,
+    model_validator,
+)
 
 from service.core.errors import ServiceError
 from service.core.planning.pose_space import PoseSpace
@@ -104,8 +112,23 @@ class Revision:
     limits: Limits
 
 
+EXAMPLE: JsonValue = {
+    "code": "lens1",
+    "name": "DMS IR, 80 degrees",
+    "lens": "pinhole5",
+    "image_size": [1280, 800],
+    "nominal": {"fx": 1350.1, "fy": 1352.1, "cx": 657.6, "cy": 383.8, "k1": -0.3774, "k2": 0.2425},
+    "target": "chessboard:9x6:25mm",
+    "pose_count": 12,
+    "pose_space": {"distance_m": [0.25, 1.0], "yaw_deg": [-45, 45], "pitch_deg": [-45, 45]},
+    "corner_noise_px": 0.1,
+}
+
+
 class SkuDocument(Document):
     """A camera variant: lens and nominal intrinsics, target, poses to plan and limits to meet."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
 
     code: Code = Field(description="Short name in addresses: lower-case letters, digits, '.', '_' and '-'.")
     name: Label

@@ -1,11 +1,11 @@
 """Results: what a finished run says about its camera, gate by gate."""
 
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated
 from uuid import UUID
 
 from fastapi import APIRouter
-from pydantic import Field
+from pydantic import ConfigDict, Field, JsonValue
 
 from service.api.auth import Viewer
 from service.api.dependencies import ReadDb
@@ -49,6 +49,15 @@ class ViewResult(Answer):
     pose: BoardPose
 
 
+class Start(Answer):
+    """How the solve went from one start."""
+
+    name: str
+    rms_px: float | None
+    iterations: int
+    converged: bool
+
+
 class Mapping(Answer):
     """Expected error of the mapping from rays to pixels, px, over the working zone and the valid region."""
 
@@ -58,8 +67,43 @@ class Mapping(Answer):
     valid_worst_px: float | None
 
 
+EXAMPLE: JsonValue = {
+    "id": "019a2b3c-4d5e-7f60-8a1b-2c3d4e5f6071",
+    "run_id": "019a2b3c-11aa-7bb2-9cc3-44dd55ee66ff",
+    "verdict": "PASS",
+    "lens": "pinhole5",
+    "image_size": [1280, 800],
+    "intrinsics": {"fx": 1350.3, "fy": 1352.2, "cx": 657.4, "cy": 383.9, "k1": -0.3771, "k2": 0.2412},
+    "sd": {"fx": 0.21, "fy": 0.21, "cx": 0.41, "cy": 0.29, "k1": 0.0014, "k2": 0.0095},
+    "rms_px": 0.117,
+    "sigma_px": 0.085,
+    "mapping": {"zone_mean_px": 0.04, "zone_worst_px": 0.09, "valid_mean_px": 0.06, "valid_worst_px": 0.21},
+    "score": 1.62,
+    "gates": [
+        {
+            "gate": "fit",
+            "name": "rms_px",
+            "value": 0.117,
+            "unit": "px",
+            "limit": 0.35,
+            "comparison": "<=",
+            "margin": 0.233,
+            "verdict": "PASS",
+            "advice": "The corners fit the camera model.",
+        }
+    ],
+    "views": [],
+    "starts": [{"name": "nominal", "rms_px": 0.117, "iterations": 6, "converged": True}],
+    "agreement_px": 1e-9,
+    "versions": {"service": "0.1.0", "opencv": "5.0.0"},
+    "created_at": "2026-11-22T07:32:33.574474Z",
+}
+
+
 class Result(Answer):
     """The judged calibration of one run."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": [EXAMPLE]})
 
     id: UUID
     run_id: UUID
@@ -74,7 +118,7 @@ class Result(Answer):
     score: Annotated[float | None, Field(description="The paper's score S against the SKU's nominal camera.")]
     gates: list[Measurement]
     views: list[ViewResult]
-    starts: list[dict[str, Any]] = Field(description="Where the solver started from, and what it reached.")
+    starts: list[Start] = Field(description="Where the solver started from, and what it reached.")
     agreement_px: float | None = Field(
         description="Largest difference between the starts; null: one of them failed."
     )

@@ -47,6 +47,28 @@ class RunSku(Answer):
 class RunSummary(Answer):
     """A run in a list."""
 
+    model_config = ConfigDict(
+        json_schema_extra={
+            "examples": [
+                {
+                    "id": "019a2b3c-11aa-7bb2-9cc3-44dd55ee66ff",
+                    "serial": "VIN-0001",
+                    "sku": {"code": "lens1", "revision": 1},
+                    "station": "line1-cal2",
+                    "purpose": "production",
+                    "state": "finished",
+                    "verdict": "PASS",
+                    "outcome": "COMPLETED",
+                    "captures": 12,
+                    "poses": 12,
+                    "rms_px": 0.117,
+                    "created_at": "2026-11-22T07:31:42.099340Z",
+                    "finished_at": "2026-11-22T07:32:33.574474Z",
+                }
+            ]
+        }
+    )
+
     id: UUID
     serial: str
     sku: RunSku
@@ -64,6 +86,8 @@ class RunSummary(Answer):
 
 class RunDetail(RunSummary):
     """A run with its images and, once finished, its result."""
+
+    model_config = ConfigDict(json_schema_extra={"examples": []})
 
     pose_set_id: UUID | None
     capture_list: list[Capture]

@@ -1,10 +1,9 @@
 """SKUs and their revisions: draft, published (never edited again), retired."""
 
 from datetime import datetime
-from typing import Annotated
 from uuid import UUID
 
-from fastapi import APIRouter, Body
+from fastapi import APIRouter
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
@@ -14,19 +13,6 @@ from service.usecases import skus
 from service.usecases.sku_document import SkuDocument
 
 router = APIRouter(prefix="/skus", tags=["SKUs"])
-
-LENS1 = {
-    "code": "lens1",
-    "name": "DMS IR, 80 degrees",
-    "lens": "pinhole5",
-    "image_size": [1280, 800],
-    "nominal": {"fx": 1350.1, "fy": 1352.1, "cx": 657.6, "cy": 383.8, "k1": -0.3774, "k2": 0.2425},
-    "target": "chessboard:9x6:25mm",
-    "pose_count": 12,
-    "pose_space": {"distance_m": [0.25, 1.0], "yaw_deg": [-45, 45], "pitch_deg": [-45, 45]},
-    "corner_noise_px": 0.1,
-}
-DocumentBody = Annotated[SkuDocument, Body(examples=[LENS1])]
 
 
 class SkuRevision(Answer):
@@ -59,7 +45,7 @@ class SkuDetail(Sku):
 
 
 @router.post("", status_code=201, summary="Create a SKU")
-def create_sku(body: DocumentBody, caller: Engineer, db: Db, now: Now) -> SkuDetail:
+def create_sku(body: SkuDocument, caller: Engineer, db: Db, now: Now) -> SkuDetail:
     """Create a camera variant with its first revision, a draft. Publish the revision before runs use it."""
     return SkuDetail.model_validate(skus.create_sku(db, body, caller.name, now))
 
@@ -77,7 +63,7 @@ def read_sku(code: SkuCode, caller: Viewer, db: ReadDb) -> SkuDetail:
 
 
 @router.post("/{code}/revisions", status_code=201, summary="Add a revision")
-def create_revision(code: SkuCode, body: DocumentBody, caller: Engineer, db: Db, now: Now) -> SkuRevision:
+def create_revision(code: SkuCode, body: SkuDocument, caller: Engineer, db: Db, now: Now) -> SkuRevision:
     """Add a draft. Published revisions are never edited: every change of a SKU is a new revision."""
     return SkuRevision.model_validate(skus.add_revision(db, code, body, caller.name, now))
 

@@ -358,7 +358,7 @@ export interface Result {
   gates: Measurement[];
   views: ViewResult[];
   /** Where the solver started from, and what it reached. */
-  starts: (Record<string, unknown>)[];
+  starts: Start[];
   /** Largest difference between the starts; null: one of them failed. */
   agreement_px: number | null;
   versions: Record<string, string>;
@@ -488,6 +488,14 @@ export interface SkuRevision {
   document: SkuDocument;
   created_at: string;
   published_at: string | null;
+}
+
+/** How the solve went from one start. */
+export interface Start {
+  name: string;
+  rms_px: number | null;
+  iterations: number;
+  converged: boolean;
 }
 
 /** A station. */
