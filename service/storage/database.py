@@ -60,6 +60,7 @@ class Database:
         writer = create_engine(
             url,
             json_serializer=to_json,
+            hide_parameters=True,
             pool_pre_ping=True,
             pool_size=10,
             max_overflow=30,

@@ -78,6 +78,7 @@ def create_writer(url: URL, lock: WriterLock, busy_s: float) -> Engine:
     engine = create_engine(
         url,
         json_serializer=to_json,
+        hide_parameters=True,
         pool_size=1,
         max_overflow=0,
         pool_timeout=busy_s,
@@ -120,6 +121,7 @@ def create_reader(url: URL, busy_s: float) -> Engine:
     engine = create_engine(
         url,
         json_serializer=to_json,
+        hide_parameters=True,
         pool_size=READERS,
         max_overflow=READER_QUEUE - READERS,
         pool_timeout=busy_s,

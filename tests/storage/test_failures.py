@@ -3,6 +3,7 @@
 import psycopg
 import pytest
 from sqlalchemy import select, text
+from sqlalchemy.exc import IntegrityError
 
 from service.core.errors import (
     AlreadyExists,
@@ -14,6 +15,7 @@ from service.core.errors import (
     ServiceError,
 )
 from service.core.quality.gates import Verdict
+from service.storage.columns import new_id
 from service.storage.database import Database
 from service.storage.failures import CONSTRAINT_TO_ERROR, DETAILS, SQLITE_CODES, SQLSTATES, domain_error
 from service.storage.models import (
@@ -21,6 +23,7 @@ from service.storage.models import (
     IdempotencyKeyRow,
     Row,
     RunRow,
+    SkuRevisionRow,
     SkuRow,
     StationRow,
     TargetRow,
@@ -138,6 +141,13 @@ def write_while_the_session_is_ended(database: Database) -> None:
 )
 def test_what_postgresql_lacks_is_told(refusal: Exception, error: type[ServiceError]) -> None:
     assert type(domain_error(refusal)) is error
+
+
+def test_a_statements_values_are_not_repeated_into_the_log(sqlite_database: Database) -> None:
+    with pytest.raises(IntegrityError) as raised, sqlite_database.write() as session:
+        session.add(SkuRevisionRow(sku_id=new_id(), number=0, document={"key": "secret"}, created_at=START))
+
+    assert "secret" not in str(raised.value)
 
 
 def test_a_fault_of_the_service_stays_the_drivers_error() -> None:
