@@ -17,7 +17,7 @@ from service.simulator.renderer import PreparedScene
 from service.simulator.scene import Scene, true_corners
 
 RETRIES = 40
-PULL_BACK = 0.003  # of the distance, per retry
+PULL_BACK = 0.003  # of the depth, per retry
 
 
 @dataclass(frozen=True)
@@ -81,13 +81,14 @@ def take_captures(
 def hold_board(scene: Scene, pose: Pose, mismatch: Mismatch, rng: np.random.Generator) -> Pose:
     """Return the pose a hand takes for a prescribed one.
 
-    A hand that loses a corner over the picture's border tries again, closer to the prescribed pose and a
-    little farther from the camera: a camera that differs from its nominal may not show that pose whole.
+    A hand that loses a corner over the picture's border tries again, with less mismatch but a little farther
+    along the optical axis, which takes the board towards the middle of the picture: a camera that differs
+    from its nominal may not show the prescribed pose whole. Ends at that pose if nothing shows it.
     """
-    centre = pose.rotation @ scene.target.centre + pose.tvec
+    depth = (pose.rotation @ scene.target.centre + pose.tvec)[2]
     for attempt in range(RETRIES):
         share = 0.9**attempt
-        farther = Pose(pose.rvec, pose.tvec + PULL_BACK * attempt * centre)
+        farther = Pose(pose.rvec, pose.tvec + np.array([0.0, 0.0, PULL_BACK * attempt * depth]))
         held = _shake(scene.target, farther, share * mismatch.position_m, share * mismatch.angle_rad, rng)
         if _is_inside(true_corners(scene, held), scene.intrinsics.image_size, mismatch.margin_px):
             return held
