@@ -104,9 +104,13 @@ class Plant:
         opened = self.expect(201, self.post("/runs", {"sku": "tiny", "serial": serial, **more}))
         return str(opened["id"])
 
-    def upload(self, run_id: str, index: int, **rest: Any) -> httpx2.Response:
+    def upload(self, run_id: str, index: int) -> httpx2.Response:
         """Upload the picture of a pose as an operator."""
-        return self.send(run_id, picture(index), pose_index=index, **rest)
+        return self.send(run_id, picture(index), pose_index=index)
+
+    def upload_as(self, run_id: str, shown: int, told: int) -> httpx2.Response:
+        """Upload the picture of one pose under the index of another."""
+        return self.send(run_id, picture(shown), pose_index=told)
 
     def send(
         self, run_id: str, content: bytes, pose_index: int | None = None, media_type: str = "image/png"
