@@ -5,7 +5,7 @@ import numpy as np
 from service.core.vision.camera import Intrinsics
 from service.demo.report import is_proven
 
-TRUTH = Intrinsics.from_vector("pinhole5", np.array([1000.0, 1000.0, 640.0, 400.0, 0, 0, 0, 0, 0]), (1280, 800))
+TRUTH = Intrinsics.from_vector("pinhole5", np.array([1e3, 1e3, 640.0, 400.0, 0, 0, 0, 0, 0]), (1280, 800))
 
 
 def _result(verdict: str = "PASS", fx: float = 1000.1, sd: float = 0.1) -> dict[str, object]:

@@ -1,1 +1,0 @@
-"""From a frame to a hint: pure parts of the live guidance."""
