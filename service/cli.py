@@ -12,7 +12,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 from uuid import UUID
 
 import uvicorn
@@ -48,12 +48,13 @@ DONE, FAILED, BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command with these arguments (by default the process's) and return its exit status."""
-    arguments = build_parser().parse_args(argv)
+    given = sys.argv[1:] if argv is None else list(argv)
     try:
+        arguments = build_parser().parse_args(given)
         status: int = arguments.run(arguments)
         sys.stdout.flush()
     except ServiceError as error:
-        return _tell(error, as_json=getattr(arguments, "json", False))
+        return _tell(error, as_json="--json" in given)
     except BrokenPipeError:
         # Whoever read the output has enough; Python must not try again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -64,9 +65,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     return status
 
 
+class _Parser(argparse.ArgumentParser):
+    """Tells wrong arguments as any other bad input, so that --json gets its problem document for them too."""
+
+    def error(self, message: str) -> NoReturn:
+        raise BadRequest(f"{message}. {' '.join(self.format_usage().split())}")
+
+
 def build_parser() -> argparse.ArgumentParser:
     """Return the parser of all verbs; each sets `run`, a function from the arguments to the exit status."""
-    parser = argparse.ArgumentParser(prog="dmscal", description="Camera calibration with pose guidance.")
+    parser = _Parser(prog="dmscal", description="Camera calibration with pose guidance.")
     verbs = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_calibrate(verbs.add_parser("calibrate", help="calibrate from a folder of images, without a server"))
     _add_plan(verbs.add_parser("plan", help="plan the poses of a SKU, without a server"))

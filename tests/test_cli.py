@@ -119,6 +119,8 @@ def test_the_wrong_board_is_named_for_every_image(folder: Path, capsys: Printed)
         (("absent", "--target", "chessboard:9x6", "--lens", "magic"), "intrinsics-invalid"),
         (("absent", "--target", "chessboard:9x6", "--fix", "k9"), "intrinsics-invalid"),
         (("absent",), "bad-request"),
+        (("absent", "--what"), "bad-request"),
+        ((), "bad-request"),
         (("absent", "--sku", "absent.json"), "sku-file-unreadable"),
     ],
 )

@@ -4,7 +4,7 @@ One view given ten times has the best RMS of all and a focal length that is 45 %
 uncertainty see it.
 """
 
-from itertools import combinations
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -104,8 +104,7 @@ def _match_errors(
 
 
 def _separation(evidence: Evidence) -> Measurement:
-    pairs = [(_distance(a, b), a.name, b.name) for a, b in combinations(evidence.views, 2)]
-    smallest, first, second = min(pairs)
+    smallest, first, second = nearest_views(evidence.views, len(evidence.target.object_points))
     return check_limit(
         GATE,
         "view_separation_px",
@@ -120,15 +119,25 @@ def _separation(evidence: Evidence) -> Measurement:
     )
 
 
-def _distance(a: NamedDetection, b: NamedDetection) -> float:
-    """Return the mean distance of the corners that two views share, px; 0 for the same file, inf for none."""
-    if a.sha256 and a.sha256 == b.sha256:
-        return 0.0
-    _, of_a, of_b = np.intersect1d(a.detection.corner_ids, b.detection.corner_ids, return_indices=True)
-    if of_a.size == 0:
-        return float("inf")
-    apart = a.detection.image_points[of_a] - b.detection.image_points[of_b]
-    return float(np.linalg.norm(apart, axis=1).mean())
+def nearest_views(views: Sequence[NamedDetection], corners: int) -> tuple[float, str, str]:
+    """Return the smallest mean distance of the corners of two views, px, and their names; 0 for the same file.
+
+    Infinite where no two views share a corner.
+    """
+    points = np.full((len(views), corners, 2), np.nan)
+    for i, view in enumerate(views):
+        points[i, view.detection.corner_ids] = view.detection.image_points
+    nearest = (float("inf"), views[0].name, views[1].name)
+    for i, view in enumerate(views[:-1]):
+        apart = np.linalg.norm(points[i + 1 :] - points[i], axis=-1)
+        shared = np.isfinite(apart)
+        means = np.where(shared, apart, 0.0).sum(axis=1) / np.maximum(shared.sum(axis=1), 1)
+        means[~shared.any(axis=1)] = np.inf
+        means[[view.sha256 != "" and view.sha256 == other.sha256 for other in views[i + 1 :]]] = 0.0
+        k = int(means.argmin())
+        if means[k] < nearest[0]:
+            nearest = (float(means[k]), view.name, views[i + 1 + k].name)
+    return nearest
 
 
 def _coverage(evidence: Evidence) -> Measurement:

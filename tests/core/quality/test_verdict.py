@@ -8,6 +8,7 @@ import pytest
 from service.core.errors import TooFewViews
 from service.core.quality.evidence import Expectation, Refusal
 from service.core.quality.gates import Verdict
+from service.core.quality.gates_poses import nearest_views
 from service.core.quality.limits import Limits
 from service.core.quality.verdict import calibrate_and_judge
 from service.core.vision.sharpness import Sharpness
@@ -63,6 +64,16 @@ def test_one_view_given_again_and_again_fails_as_such() -> None:
     found = measured(judge([*views, *copies]), "view_separation_px")
     assert (found.value, found.verdict) == (0.0, Verdict.FAIL)
     assert "copy0" in found.advice
+
+
+def test_many_views_are_compared_in_reasonable_time() -> None:
+    far = see_poses()[0]
+    spread = np.random.default_rng(3).uniform(0, 1e6, (400, 1, 2))
+    views = [see(far.detection.image_points + shift, str(i)) for i, shift in enumerate(spread)]
+    distance, first, second = nearest_views(views, len(BOARD.object_points))
+    all_pairs = np.linalg.norm(spread[:, None, 0] - spread[None, :, 0], axis=-1) + 1e9 * np.eye(400)
+    assert distance == pytest.approx(all_pairs.min())
+    assert {int(first), int(second)} == set(np.argwhere(all_pairs == all_pairs.min())[0].tolist())
 
 
 def test_the_same_place_with_other_noise_is_the_same_view() -> None:
