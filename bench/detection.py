@@ -47,7 +47,7 @@ def run(quick: bool) -> dict[str, Any]:
     whole = [poses.pose(i) for i in range(len(poses))]
     images = [prepared.render(pose, rng) for pose in whole]
     truths = [true_corners(prepared.scene, pose) for pose in whole]
-    cut = [prepared.render(_cut_off(pose, prepared), rng) for pose in whole[::3]]
+    cut = [prepared.render(_cut_off(pose), rng) for pose in whole[::3]]
     nothing = Pose(np.zeros(3), np.array([50.0, 0.0, 1.0]))
     empty = [_background(prepared, seed).render(nothing, rng) for seed in range(2 if quick else 12)]
     return {
@@ -159,14 +159,17 @@ def _dark_first(image: Image, corners: Array) -> Array:
     return corners if first < second else corners[::-1]
 
 
-def _cut_off(pose: Pose, prepared: PreparedScene) -> Pose:
-    """Move a board sideways until its middle is near the border, so that about half of it is seen."""
-    width, _ = prepared.scene.intrinsics.image_size
-    K = prepared.scene.intrinsics.camera_matrix
-    centre = pose.rotation @ TARGET.centre + pose.tvec
-    border = (width - 1.0 if centre[0] > 0 else 0.0) - K[0, 2]
-    shift = 0.9 * border / K[0, 0] * centre[2] - centre[0]
-    return Pose(pose.rvec, pose.tvec + np.array([shift, 0.0, 0.0]))
+def _cut_off(pose: Pose) -> Pose:
+    """Move a board sideways until part of its corners is beyond the border."""
+    width, _ = LENS1.image_size
+    step = np.array([0.1 * TARGET.square_m * np.sign(pose.tvec[0]), 0.0, 0.0])
+    scene = production_scene(LENS1, TARGET)
+    for _ in range(1000):
+        x = true_corners(scene, pose)[:, 0]
+        if np.nanmin(x) < -5.0 or np.nanmax(x) > width + 4.0:
+            break
+        pose = Pose(pose.rvec, pose.tvec + step)
+    return pose
 
 
 def _background(prepared: PreparedScene, seed: int) -> PreparedScene:

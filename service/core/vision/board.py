@@ -9,26 +9,12 @@ import cv2
 import numpy as np
 
 from service.core.errors import TargetNotVisible, WrongTarget
-from service.core.vision.corner_grid import CornerGrid, crop
+from service.core.vision.corner_grid import CornerGrid
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
-SHARE_OF_A_LINE = 0.5  # of an outermost row or column that must be there for it to count as one
 DWARFED = 0.2  # of the largest grid in area times corners
 SHARE_OF_A_BOARD = 0.35  # of the corners that must be seen before a part of a board is spoken of
-
-
-def whole_lines(grid: CornerGrid) -> CornerGrid:
-    """Return the grid without outer rows and columns of which only chance corners are there."""
-    while grid.points.size:
-        known = grid.known
-        shares = np.array([known[0].mean(), known[-1].mean(), known[:, 0].mean(), known[:, -1].mean()])
-        side = int(np.argmin(shares))
-        if shares[side] >= SHARE_OF_A_LINE:
-            return grid
-        rows, columns = known.shape
-        grid = crop(grid, side == 0, side == 2, rows - (side == 1), columns - (side == 3))
-    return grid
 
 
 def prominent_grids(grids: list[CornerGrid]) -> list[CornerGrid]:
@@ -98,6 +84,11 @@ def refuse_partial(corners_seen: int, target: Chessboard) -> TargetNotVisible:
     if corners_seen < max(8, SHARE_OF_A_BOARD * needed):
         detail = (
             f"No {name} was found; bring the whole board into the picture, lit evenly, sharp and near enough."
+        )
+    elif corners_seen >= needed:
+        detail = (
+            f"More corners were found than a {name} has, but not clearly enough to say which board it is; "
+            "take the picture again, sharper and with nothing patterned touching the board."
         )
     else:
         detail = (

@@ -20,12 +20,12 @@ from service.core.vision.board import (
     prominent_grids,
     refuse_larger,
     refuse_partial,
-    whole_lines,
 )
 from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.grid_growth import complete_grid, measure_steps
 from service.core.vision.light import LightFall, even_out, fit_light, read_cells
+from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage, smooth
@@ -103,11 +103,12 @@ def _find_board(image: NDArray[np.uint8], blurred: FloatImage, target: Chessboar
     """Return the grid that is the target. Raises TargetNotVisible or WrongTarget."""
     most_seen = 0
     for scaled, scale in _scales(image):
-        grids = prominent_grids([whole_lines(grid) for grid in _grids(scaled, scale, blurred, target)])
+        grids = prominent_grids(_grids(scaled, scale, blurred, target))
         whole = next((grid for grid in grids if is_whole(grid, target)), None)
         if whole is not None:
             return whole
-        larger = next((grid for grid in grids if is_larger(grid, target)), None)
+        sure = [whole_lines(grid, SHARE_OF_A_SURE_LINE) for grid in grids]
+        larger = next((grid for grid in sure if is_larger(grid, target)), None)
         if larger is not None:
             raise refuse_larger(larger, target)
         most_seen = max([most_seen, *(int(grid.known.sum()) for grid in grids)])
@@ -141,8 +142,9 @@ def _grids(
     for grid in number_corners(corners, link_corners(corners))[:GRIDS_PER_SCALE]:
         full = replace(grid, points=(grid.points + 0.5) / scale - 0.5)
         if not any(_lies_inside(full, stronger) for stronger in found):
-            found.append(complete_grid(blurred, full, rounds))
-        if len(found) == 1 and is_whole(whole_lines(found[0]), target):
+            lines = whole_lines(complete_grid(blurred, full, rounds))
+            found.append(without_rims(blurred, lines) if is_larger(lines, target) else lines)
+        if len(found) == 1 and is_whole(found[0], target):
             break
     return found
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from service.core.vision.board import is_larger, is_whole, order_corners, prominent_grids, whole_lines
+from service.core.vision.board import is_larger, is_whole, order_corners, prominent_grids
 from service.core.vision.corner_grid import CornerGrid
 from service.core.vision.target import Chessboard
 
@@ -9,20 +9,6 @@ from service.core.vision.target import Chessboard
 def grid_of(rows: int, columns: int, phase: int = 0, step: float = 10.0) -> CornerGrid:
     y, x = np.mgrid[:rows, :columns].astype(np.float64)
     return CornerGrid(np.stack([x, y], axis=-1) * step, phase)
-
-
-def test_a_row_of_which_one_corner_is_there_is_chance() -> None:
-    grid = grid_of(7, 9)
-    grid.points[0, 1:] = np.nan
-    kept = whole_lines(grid)
-    assert kept.points.shape[:2] == (6, 9)
-    assert kept.phase == 1
-
-
-def test_a_row_of_which_most_is_there_counts() -> None:
-    grid = grid_of(7, 9)
-    grid.points[0, 6:] = np.nan
-    assert whole_lines(grid).points.shape[:2] == (7, 9)
 
 
 @pytest.mark.parametrize(

@@ -107,6 +107,24 @@ def test_a_covered_corner_is_missed_and_said() -> None:
         detect_target(image, board.target)
 
 
+def test_a_larger_board_of_which_a_line_is_half_hidden_is_refused_but_not_named() -> None:
+    board = draw_board()
+    image = board.image()
+    for x, y in board.corners.reshape(6, 9, 2)[:2, 8].astype(int):
+        image[y - 12 : y + 12, x - 12 : x + 12] = 120
+    with pytest.raises(TargetNotVisible, match="not clearly enough to say which board it is"):
+        detect_target(image, Chessboard(8, 6, 0.025))
+
+
+@pytest.mark.parametrize("sigma_px", [3.0, 5.0, 6.5])
+def test_the_rim_of_a_blurred_board_on_a_dark_ground_is_no_further_line(sigma_px: float) -> None:
+    board = draw_board(square_px=34.0, tilt=2e-4)
+    image = board.image()
+    image[image == 122] = 15  # the surroundings
+    detection = detect_target(blur(image, sigma_px), board.target)
+    assert errors_px(detection, board.corners).max() < 0.5
+
+
 @pytest.mark.parametrize("square_px", [9.0, 12.0, 20.0])
 def test_tiny_squares_are_found(square_px: float) -> None:
     board = draw_board(square_px=square_px, sigma_px=0.6)
