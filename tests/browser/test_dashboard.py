@@ -11,6 +11,10 @@ from tests.browser.chromium import Watch
 from tests.browser.pixels import pixels_of
 from tests.browser.serving import Serving
 
+NAMELESS_CONTROLS = """[...document.querySelectorAll('button, a, input, select')]
+    .filter(control => !(control.innerText || control.ariaLabel || control.labels?.length))
+    .map(control => control.outerHTML)"""
+
 
 def open_run(page: Page, serving: Serving, run_id: str) -> None:
     """Open a run with the key in the address, and wait until its corners have been loaded and drawn."""
@@ -141,6 +145,24 @@ def test_the_viewer_zooms_by_wheel_and_keys_and_reads_corners_out(
     expect(page.locator(".zoom-value")).to_have_text(before)
 
 
+def test_the_page_can_be_used_by_keyboard_and_every_control_has_a_name(
+    page: Page, serving: Serving, runs: Runs
+) -> None:
+    open_run(page, serving, runs.passing["run_id"])
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("link", name="Skip to content")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.locator("main")).to_be_focused()
+
+    assert page.evaluate(NAMELESS_CONTROLS) == []
+    assert (
+        page.evaluate("[...document.querySelectorAll('th')].filter(th => !th.scope && !th.ariaHidden).length")
+        == 0
+    )
+    for role in ("banner", "navigation", "main"):
+        expect(page.get_by_role(role).first).to_be_visible()  # type: ignore[arg-type]
+
+
 def test_an_open_run_says_how_far_it_is_and_offers_no_verdict(
     page: Page, serving: Serving, runs: Runs, watch: Watch, shots: Path
 ) -> None:
@@ -205,6 +227,7 @@ def test_a_page_outlives_the_service_and_goes_on_when_it_is_back(
     try:
         expect(page.get_by_role("alert")).to_contain_text("No server")
         expect(page.get_by_role("row")).to_have_count(4)
+        expect(page.locator(".live")).to_have_count(0)
         page.screenshot(path=shots / "offline.png")
     finally:
         serving.start()

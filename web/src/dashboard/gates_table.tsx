@@ -80,7 +80,11 @@ function Row({ measurement, say }: { measurement: Measurement; say: Words }): JS
   return (
     <tr class={`gate gate-${verdict}`}>
       <td>
-        <StandingTag standing={verdict} />
+        {isJudged(measurement) ? (
+          <StandingTag standing={verdict} />
+        ) : (
+          <span class="muted">{say.no_limit}</span>
+        )}
       </td>
       <th scope="row">
         {measurementName(name, language.value)}
@@ -90,7 +94,7 @@ function Row({ measurement, say }: { measurement: Measurement; say: Words }): JS
       </th>
       <td class="number">{value === null ? say.not_determined : withUnit(significant(value), unit)}</td>
       <td class="number muted">
-        {limit === null ? say.no_limit : `${sign(comparison)} ${withUnit(plain(limit), unit)}`}
+        {limit === null ? "–" : `${sign(comparison)} ${withUnit(plain(limit), unit)}`}
       </td>
       <td class="bar-column">
         <Bar measurement={measurement} say={say} />
@@ -100,6 +104,11 @@ function Row({ measurement, say }: { measurement: Measurement; say: Words }): JS
       </td>
     </tr>
   );
+}
+
+/** A value without a limit is told, not judged. */
+function isJudged({ limit, verdict }: Measurement): boolean {
+  return limit !== null || verdict !== "PASS";
 }
 
 function sign(comparison: string): string {

@@ -2,6 +2,7 @@
 import { type JSX } from "preact";
 import { useCallback, useEffect, useState } from "preact/hooks";
 import { getRuns } from "../api/client";
+import { online } from "../api/connection";
 import { back, FIRST_PAGE, isFirst, onward, shownCursor, type Walk } from "../api/pages";
 import type { PageRunSummary } from "../generated/api";
 import { useResource } from "../api/use_resource";
@@ -32,7 +33,7 @@ export function RunsPage({ serial }: { serial: string }): JSX.Element {
       <div class="page-head">
         <h1>{say.runs_title}</h1>
         <SerialSearch serial={serial} />
-        {runs.state === "ready" && (
+        {runs.state === "ready" && online.value && (
           <span class="live muted">
             <span class="live-dot" aria-hidden="true" />
             {say.runs_live(clock(new Date()))}

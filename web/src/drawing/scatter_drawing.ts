@@ -50,10 +50,11 @@ function drawGrid(
   locale: string,
 ): void {
   const scale = side / 2 / limit;
-  const digits = digitsOfStep(roundStep(2 * limit, 6));
+  const most = side < 320 ? 4 : 6;
+  const digits = digitsOfStep(roundStep(2 * limit, most));
   context.font = `11px ${getComputedStyle(document.body).fontFamily}`;
   context.lineWidth = 1;
-  for (const tick of symmetricTicks(limit, 6)) {
+  for (const tick of symmetricTicks(limit, most)) {
     context.strokeStyle = tick === 0 ? colours("plot-axis") : colours("plot-grid");
     line(context, zero.x + tick * scale, zero.y - side / 2, zero.x + tick * scale, zero.y + side / 2);
     line(context, zero.x - side / 2, zero.y + tick * scale, zero.x + side / 2, zero.y + tick * scale);
