@@ -3,6 +3,7 @@
 import json
 import logging
 import re
+import subprocess
 import sys
 
 import pytest
@@ -52,3 +53,15 @@ def test_json_lines_are_json() -> None:
 
     assert line["time"].endswith("Z")
     assert (line["level"], line["message"], line["run"]) == ("INFO", "captured", "r1")
+
+
+def test_a_process_logs_in_the_chosen_form_and_from_the_chosen_level() -> None:
+    said = (
+        "import logging; from service.log import configure_logging; configure_logging('INFO', 'json');"
+        "logging.getLogger('service').debug('hidden'); logging.getLogger('service').info('shown');"
+        "logging.getLogger('sqlalchemy.engine').info('hidden')"
+    )
+
+    outcome = subprocess.run([sys.executable, "-c", said], capture_output=True, text=True, check=True)  # noqa: S603 - our own command
+
+    assert [json.loads(line)["message"] for line in outcome.stderr.splitlines()] == ["shown"]

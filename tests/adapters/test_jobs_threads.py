@@ -1,87 +1,22 @@
 """Jobs: queued with the caller's transaction, done exactly once, resumed after a stop or a crash."""
 
-import threading
 import time
-from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
-from uuid import UUID
 
 import pytest
-from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from service.adapters.clock_system import SystemClock
 from service.adapters.jobs_threads import ThreadJobs
-from service.core.errors import DatabaseBusy, JobAlreadyEnded, NotFound, PoseSpaceEmpty
-from service.ports import JobCompletion, JobHandler, JobRun, JsonObject
+from service.core.errors import JobAlreadyEnded, NotFound, PoseSpaceEmpty
+from service.ports import JobCompletion, JobRun, JsonObject
 from service.storage import jobs
 from service.storage.columns import new_id
 from service.storage.database import Database
-from service.storage.models import JobRow, SkuRow
+from service.storage.models import SkuRow
 from service.storage.words import JobState
+from tests.adapters.queueing import HANDLERS, add_sku, add_sku_row, enqueue, job, queue_on, skus
 from tests.fakes import START, FakeClock
-
-
-def add_sku(run: JobRun) -> JobCompletion:
-    def complete(session: Session) -> JsonObject:
-        session.add(SkuRow(code=str(run.arguments["code"]), name="", created_at=START))
-        return {"code": run.arguments["code"]}
-
-    run.report(0.5)
-    return complete
-
-
-def refuse(_: JobRun) -> JobCompletion:
-    raise PoseSpaceEmpty("The pose space holds no pose. Widen its distances.", poses_found=0)
-
-
-def crash(_: JobRun) -> JobCompletion:
-    raise ZeroDivisionError("secret detail")
-
-
-def lack(_: JobRun) -> JobCompletion:
-    raise DatabaseBusy("Try again.")
-
-
-HANDLERS: dict[str, JobHandler] = {"add-sku": add_sku, "refuse": refuse, "crash": crash, "lack": lack}
-
-
-def queue_on(database: Database, clock: FakeClock, **handlers: JobHandler) -> ThreadJobs:
-    return ThreadJobs(database, clock, {**HANDLERS, **handlers})
-
-
-def enqueue(database: Database, queue: ThreadJobs, kind: str, **arguments: object) -> UUID:
-    with database.write() as session:
-        return queue.enqueue(session, kind, arguments)
-
-
-def job(database: Database, job_id: UUID) -> JobRow:
-    with database.read() as session:
-        row = session.get(JobRow, job_id)
-        assert row is not None
-        return row
-
-
-def skus(database: Database) -> int:
-    with database.read() as session:
-        return session.scalar(select(func.count()).select_from(SkuRow)) or 0
-
-
-def wait_for(condition: Callable[[], bool], timeout_s: float = 10.0) -> None:
-    end = time.monotonic() + timeout_s
-    while not condition():
-        assert time.monotonic() < end, "it did not happen in time"
-        time.sleep(0.01)
-
-
-@contextmanager
-def started(queue: ThreadJobs) -> Iterator[ThreadJobs]:
-    queue.start()
-    try:
-        yield queue
-    finally:
-        queue.stop(5.0)
 
 
 def test_a_job_is_done_with_what_it_found_in_one_transaction(database: Database, clock: FakeClock) -> None:
@@ -110,13 +45,6 @@ def enqueue_and_fail(database: Database, queue: ThreadJobs) -> None:
     with database.write() as session:
         queue.enqueue(session, "add-sku", {"code": "lens1"})
         raise ZeroDivisionError
-
-
-def test_a_job_starts_at_once_when_its_transaction_commits(database: Database) -> None:
-    queue = ThreadJobs(database, SystemClock(), HANDLERS, poll_s=60.0)
-    with started(queue):
-        job_id = enqueue(database, queue, "add-sku", code="lens1")
-        wait_for(lambda: job(database, job_id).state is JobState.DONE)
 
 
 def test_a_refused_job_fails_with_the_problem(database: Database, clock: FakeClock) -> None:
@@ -194,11 +122,6 @@ def test_a_running_job_that_is_cancelled_stores_nothing(
     assert skus(database) == 0
 
 
-def add_sku_row(session: Session) -> JsonObject:
-    session.add(SkuRow(code="lens1", name="", created_at=START))
-    return {}
-
-
 def test_only_jobs_that_have_not_ended_can_be_cancelled(database: Database, clock: FakeClock) -> None:
     queue = queue_on(database, clock)
     job_id = enqueue(database, queue, "add-sku", code="lens1")
@@ -226,21 +149,6 @@ def test_progress_is_written_at_most_twice_a_second(database: Database, clock: F
 
     assert time.monotonic() - begin < 1.0
     assert 0.0 <= seen[0] < 1.0
-
-
-def test_a_job_whose_process_died_runs_again_at_the_next_start(
-    sqlite_database: Database, clock: FakeClock
-) -> None:
-    died = queue_on(sqlite_database, clock)
-    job_id = enqueue(sqlite_database, died, "add-sku", code="lens1")
-    with sqlite_database.write() as session:
-        assert jobs.claim(session, new_id(), HANDLERS, clock.now()) is not None
-
-    with started(queue_on(sqlite_database, clock)):
-        wait_for(lambda: job(sqlite_database, job_id).state is JobState.DONE)
-
-    assert job(sqlite_database, job_id).attempts == 2
-    assert skus(sqlite_database) == 1
 
 
 def test_a_job_without_a_sign_of_life_is_taken_over_and_its_first_worker_stores_nothing(
@@ -297,42 +205,6 @@ def test_a_job_that_lacked_something_is_tried_again(database: Database, clock: F
     queue.requeue_orphans(30.0)
 
     assert job(database, job_id).state is JobState.QUEUED
-
-
-def test_a_stop_lets_a_running_job_end(database: Database) -> None:
-    begun = threading.Event()
-
-    def slow(_: JobRun) -> JobCompletion:
-        begun.set()
-        time.sleep(0.3)
-        return add_sku_row
-
-    queue = ThreadJobs(database, SystemClock(), {"slow": slow})
-    with started(queue):
-        job_id = enqueue(database, queue, "slow")
-        assert begun.wait(10)
-        queue.stop(5.0)
-
-    assert job(database, job_id).state is JobState.DONE
-
-
-def test_a_job_that_does_not_end_in_time_goes_back_to_the_queue(database: Database) -> None:
-    begun = threading.Event()
-
-    def endless(run: JobRun) -> JobCompletion:
-        begun.set()
-        while True:
-            run.report(0.1)
-            time.sleep(0.02)
-
-    queue = ThreadJobs(database, SystemClock(), {"endless": endless})
-    with started(queue):
-        job_id = enqueue(database, queue, "endless")
-        assert begun.wait(10)
-        queue.stop(0.1)
-
-    row = job(database, job_id)
-    assert (row.state, row.attempts, row.claimed_by) == (JobState.QUEUED, 0, None)
 
 
 def test_many_workers_do_each_job_once(database: Database) -> None:
