@@ -160,7 +160,7 @@ def test_the_page_can_be_used_by_keyboard_and_every_control_has_a_name(
         == 0
     )
     for role in ("banner", "navigation", "main"):
-        expect(page.get_by_role(role).first).to_be_visible()  # type: ignore[arg-type]
+        expect(page.get_by_role(role).first).to_be_visible()
 
 
 def test_an_open_run_says_how_far_it_is_and_offers_no_verdict(
