@@ -43,7 +43,7 @@ class Effort:
     sigma_px: float = 0.1
 
 
-QUICK = Effort(sets=60, trials=40, counts=(20, 6))
+QUICK = Effort(sets=40, trials=30, counts=(20, 6))
 
 
 def run(quick: bool) -> dict[str, Any]:
