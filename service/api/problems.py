@@ -16,6 +16,7 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
 
+from service.api.headers import add_guard_headers
 from service.core.errors import (
     BadRequest,
     Conflict,
@@ -128,13 +129,15 @@ def answer_problem(
         trace_id=trace_id_of(request),
         errors=None if errors is None else list(errors),
     )
-    headers = {"WWW-Authenticate": "Bearer"} if status is HTTPStatus.UNAUTHORIZED else None
-    return JSONResponse(
+    answer = JSONResponse(
         document.model_dump(mode="json", exclude={"errors"} if errors is None else None),
         status_code=status,
-        headers=headers,
+        headers={"WWW-Authenticate": "Bearer"} if status is HTTPStatus.UNAUTHORIZED else None,
         media_type=MEDIA_TYPE,
     )
+    # Faults are answered outside of all middleware, which would add these otherwise.
+    add_guard_headers(answer.headers, request.url.path, trace_id_of(request))
+    return answer
 
 
 def trace_id_of(request: Request) -> str:

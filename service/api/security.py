@@ -1,4 +1,4 @@
-"""What guards every request: headers that bind browsers, a trace id, and no NUL in an address."""
+"""What guards every request: no NUL in an address, a trace id in the log, guarding headers in the answer."""
 
 from http import HTTPStatus
 
@@ -6,22 +6,10 @@ from starlette.datastructures import MutableHeaders
 from starlette.requests import Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.api.headers import add_guard_headers
 from service.api.problems import MEDIA_TYPE, answer_problem, trace_id_of
 from service.core.errors import BadRequest, ServiceError, TooLarge
 from service.log import logged_with
-
-POLICY = (
-    "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "
-    "base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-)
-HEADERS = {
-    "Content-Security-Policy": POLICY,
-    "X-Content-Type-Options": "nosniff",
-    "X-Frame-Options": "DENY",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
-}
 
 
 class Guard:
@@ -63,17 +51,10 @@ class GuardedSend:
                 await self.answer(TooLarge("The body is larger than this address accepts."))
                 self._is_dropping = True
                 return
-            self._guard(headers)
+            add_guard_headers(headers, self.request.url.path, trace_id_of(self.request))
         if not self._is_dropping:
             await self._send(message)
 
     async def answer(self, error: ServiceError) -> None:
         """Answer with the problem document of an error."""
         await answer_problem(self.request, error)(self.request.scope, self._receive, self)
-
-    def _guard(self, headers: MutableHeaders) -> None:
-        for name, value in HEADERS.items():
-            headers.setdefault(name, value)
-        headers["X-Trace-Id"] = trace_id_of(self.request)
-        if self.request.url.path.startswith("/api/"):
-            headers.setdefault("Cache-Control", "no-store")

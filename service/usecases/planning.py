@@ -9,7 +9,7 @@ import numpy as np
 from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, PoseSetInfeasible
-from service.core.planning.diversity import measure_diversity
+from service.core.planning.diversity import check_diversity, measure_diversity
 from service.core.planning.document import pose_set_to_dict, pose_to_dict
 from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import Poses
@@ -92,7 +92,9 @@ def describe_import(revision: Revision, poses: Sequence[Pose]) -> JsonObject:
     prediction = predict_accuracy(
         revision.intrinsics, revision.target, stacked, revision.corner_noise_px, zone, fixed=revision.fixed
     )
-    diversity = measure_diversity(stacked, revision.target, pixels, revision.intrinsics.image_size)
+    diversity = check_diversity(
+        measure_diversity(stacked, revision.target, pixels, revision.intrinsics.image_size)
+    )
     return {
         "poses": [pose_to_dict(pose) for pose in poses],
         "prediction": {

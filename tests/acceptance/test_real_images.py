@@ -13,10 +13,10 @@ pytestmark = [
     pytest.mark.data,
     pytest.mark.skipif(
         not IMAGES.is_dir() and "CI" not in os.environ,
-        reason="the photographs in ../shared/data are not here",
+        reason="../shared/data is not here",
     ),
 ]
-# The camera's data sheet, a few per cent off; 25 mm stands in for the squares, whose size nobody has published.
+# A data sheet some per cent off; 25 mm stands in for the squares, whose size nobody has published.
 SKU = {
     "code": "opencv",
     "name": "OpenCV's sample camera",

@@ -12,7 +12,7 @@ def test_the_example_is_a_valid_document() -> None:
 
     assert revision.intrinsics.parameters["fx"] == 1350.1
     assert revision.target.spec == "chessboard:9x6:25mm"
-    assert revision.pose_space.yaw_deg == (-45, 45)
+    assert list(revision.pose_space.yaw_deg) == [-45, 45]
     assert revision.limits.rms_px == 0.35
 
 
