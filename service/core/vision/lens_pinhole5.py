@@ -3,6 +3,8 @@
 Works on ideal image-plane coordinates x = X/Z, y = Y/Z. Formulas: Brown (1966) as in OpenCV's calib3d page.
 """
 
+import math
+
 import numpy as np
 
 from service.core.vision.transforms import Array
@@ -56,8 +58,23 @@ def monotone_radius(k: Array) -> float:
     The radial part r(1 + k1 r² + k2 r⁴ + k3 r⁶) turns where 1 + 3 k1 r² + 5 k2 r⁴ + 7 k3 r⁶ has its smallest
     positive root; in 1/r² that is the largest root of a cubic whose leading coefficient is one.
     """
-    companion = np.array([[-3.0 * k[0], -5.0 * k[1], -7.0 * k[4]], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    roots = np.linalg.eigvals(companion)
-    real = roots[np.abs(roots.imag) <= 1e-9 * np.abs(roots).max()].real
-    largest = real.max(initial=0.0)
-    return float(1.0 / np.sqrt(largest)) if largest > 1e-12 else float("inf")
+    a, b, c = 3.0 * float(k[0]), 5.0 * float(k[1]), 7.0 * float(k[4])
+    largest = _largest_cubic_root(a, b, c)
+    # Below this the root is rounding, and the fold, if there is one, some 0.1 degrees from the image plane.
+    return 1.0 / math.sqrt(largest) if largest > 1e-6 * max(1.0, abs(a)) else math.inf
+
+
+def _largest_cubic_root(a: float, b: float, c: float) -> float:
+    """Return the largest real root of t³ + a t² + b t + c (Cardano; Viète where there are three)."""
+    p = b - a * a / 3.0
+    q = 2.0 * a**3 / 27.0 - a * b / 3.0 + c
+    discriminant = q * q / 4.0 + p**3 / 27.0
+    if discriminant > 0.0:
+        # Of the two cube roots the larger is taken from the formula and the other from their product.
+        u = math.cbrt(-q / 2.0 - math.copysign(math.sqrt(discriminant), q))
+        y = u - p / (3.0 * u)
+    else:
+        radius = math.sqrt(max(-p, 0.0) / 3.0)
+        cosine = -q / (2.0 * radius**3) if radius > 1e-100 else 0.0
+        y = 2.0 * radius * math.cos(math.acos(min(1.0, max(-1.0, cosine))) / 3.0)
+    return y - a / 3.0

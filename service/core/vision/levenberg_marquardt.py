@@ -25,7 +25,7 @@ from service.core.vision.view_stack import ViewStack
 
 DISTANCE_TO_OPTIMUM_SD = 3e-5
 SMALLEST_SIGMA_PX = 1e-7
-FIRST_DAMPING = 1e-3
+FIRST_DAMPING = 1e-4
 LARGEST_DAMPING = 1e9
 
 
@@ -54,15 +54,31 @@ def minimise(
     *,
     iterations: int = 200,
     damping: float = FIRST_DAMPING,
+    may_fold: bool = False,
 ) -> Fit | None:
     """Minimise the squared reprojection errors over the free parameters (indices) and all poses.
 
     damping: the first one; small where the start is known to be near, so that the first step is nearly
-    Newton's. None where the start is not feasible: a corner behind the camera or beyond the fold of the lens.
+    Newton's. may_fold: the way, but not the end, may lead beyond the fold of the lens. None where the start
+    or the end is not feasible: a corner is behind the camera or beyond the fold.
     """
-    here = start
-    if not is_feasible(lens, here, stack.visible_points):
+    if not is_feasible(lens, start, stack.visible_points, may_fold):
         return None
+    fit = _descend(lens, stack, start, free, iterations=iterations, damping=damping, may_fold=may_fold)
+    return fit if is_feasible(lens, fit.estimate, stack.visible_points) else None
+
+
+def _descend(
+    lens: str,
+    stack: ViewStack,
+    here: Estimate,
+    free: NDArray[np.intp],
+    *,
+    iterations: int,
+    damping: float,
+    may_fold: bool,
+) -> Fit:
+    """Take steps from a feasible estimate until the optimum is proven or nothing helps any more."""
     equations = linearise(lens, stack, here, free)
     for iteration in range(iterations):
         step = _step(equations, damping)
@@ -71,7 +87,7 @@ def minimise(
             return Fit(here, equations, iteration, converged=True)
         if damping > LARGEST_DAMPING:
             break
-        moved = _try(lens, stack, here, free, step)
+        moved = _try(lens, stack, here, free, step, may_fold=may_fold)
         gain = (equations.cost - moved[1].cost) / step.promised if moved and step else -1.0
         if moved and gain > 0:
             here, equations = moved
@@ -109,7 +125,13 @@ def _is_optimum(equations: NormalEquations, threshold: float) -> bool:
 
 
 def _try(
-    lens: str, stack: ViewStack, here: Estimate, free: NDArray[np.intp], step: _Step | None
+    lens: str,
+    stack: ViewStack,
+    here: Estimate,
+    free: NDArray[np.intp],
+    step: _Step | None,
+    *,
+    may_fold: bool,
 ) -> tuple[Estimate, NormalEquations] | None:
     """Return the estimate after a step with its equations, None where no lens can do that."""
     if step is None:
@@ -117,7 +139,7 @@ def _try(
     parameter_step = np.zeros_like(here.vector)
     parameter_step[free] = step.parameters
     moved = here.moved(parameter_step, step.poses)
-    if not is_feasible(lens, moved, stack.visible_points):
+    if not is_feasible(lens, moved, stack.visible_points, may_fold):
         return None
     return moved, linearise(lens, stack, moved, free)
 

@@ -68,28 +68,37 @@ def solve_from_starts(problem: Problem) -> Ends:
 
 
 def _sweep(problem: Problem, thinned: ViewStack) -> Fit | None:
-    """Return the end of a sweep of focal lengths on a few corners of each view.
-
-    From far away all coefficients at once may run into the fold of the lens and stick there, so the focal
-    length and the first coefficient go ahead; the most promising of these ends are then followed until one
-    proves its optimum.
-    """
-    first = np.intersect1d(problem.free, FIRST_PARAMETERS)
-    starts = [_held(problem, start) for start in sweep_starts(problem.lens, problem.image_size, thinned)]
-    ahead = [minimise(problem.lens, thinned, start, first, iterations=12) for start in starts]
+    """Return the end of a sweep of focal lengths on a few corners: the most promising until one is proven."""
+    starts = sweep_starts(problem.lens, problem.image_size, thinned)
+    ahead = [_ahead(problem, thinned, start) for start in starts]
     ends: list[Fit | None] = []
     for fit in sorted((fit for fit in ahead if fit), key=lambda fit: fit.equations.cost):
-        ends.append(_coarse(problem, thinned, fit.estimate))
-        if ends[-1] and ends[-1].converged:
+        end = _coarse(problem, thinned, fit.estimate)
+        ends.append(end)
+        if end and end.converged:
             break
     return _cheapest(ends)
 
 
+def _ahead(problem: Problem, thinned: ViewStack, start: Estimate) -> Fit | None:
+    """Return a start with its focal length and first coefficient improved."""
+    first = np.intersect1d(problem.free, FIRST_PARAMETERS)
+    return minimise(problem.lens, thinned, _held(problem, start), first, iterations=12)
+
+
 def _coarse(problem: Problem, thinned: ViewStack, start: Estimate | None) -> Fit | None:
-    """Return the end of a start on a few corners of each view."""
+    """Return the end of a start on a few corners of each view.
+
+    Where it sticks at the fold of the lens, it is tried again on a path that may lead through the fold.
+    """
     if start is None:
         return None
-    return minimise(problem.lens, thinned, _held(problem, start), problem.free, iterations=60)
+    start = _held(problem, start)
+    direct = minimise(problem.lens, thinned, start, problem.free, iterations=60)
+    if direct and direct.converged:
+        return direct
+    through = minimise(problem.lens, thinned, start, problem.free, iterations=60, may_fold=True)
+    return through if through and through.converged else _cheapest([direct, through])
 
 
 def _cheapest(fits: Sequence[Fit | None]) -> Fit | None:

@@ -60,15 +60,15 @@ class Reduced:
     pose_alone: Array
 
 
-def is_feasible(lens: str, estimate: Estimate, object_points: Array) -> bool:
-    """Whether each board point (v, n, 3) is before the camera and where the lens is monotone."""
+def is_feasible(lens: str, estimate: Estimate, object_points: Array, may_fold: bool = False) -> bool:
+    """Whether each board point (v, n, 3) is before the camera and, unless it may fold, before the fold."""
     focal = estimate.vector[:2]
     if not (np.all(np.isfinite(estimate.vector)) and focal.min() > 0):
         return False
     points = object_points @ np.swapaxes(estimate.rotations, -1, -2) + estimate.translations[:, None, :]
     z = points[..., 2]
-    if not z.min() > 0:
-        return False
+    if may_fold or not z.min() > 0:
+        return bool(z.min() > 0)
     radius_sq = (points[..., 0] ** 2 + points[..., 1] ** 2) / (z * z)
     limit: float = LENSES[lens].monotone_radius(estimate.vector[4:])
     return bool(radius_sq.max() < limit * limit)

@@ -136,6 +136,6 @@ def _check_values(stack: ViewStack, names: Sequence[str]) -> None:
 def _on_a_line(points: Array) -> NDArray[np.bool_]:
     """Whether the points (v, n, 2) of each view spread along one direction only."""
     about = points - points.mean(axis=1, keepdims=True)
-    spread = np.swapaxes(about, -1, -2) @ about
-    determinant = spread[:, 0, 0] * spread[:, 1, 1] - spread[:, 0, 1] ** 2
-    return np.asarray(determinant <= 1e-12 * (spread[:, 0, 0] + spread[:, 1, 1]) ** 2)
+    x, y = about[..., 0], about[..., 1]
+    xx, yy, xy = (np.sum(product, axis=1) for product in (x * x, y * y, x * y))
+    return np.asarray(xx * yy - xy * xy <= 1e-12 * (xx + yy) ** 2)

@@ -49,7 +49,7 @@ def views_of(camera: Intrinsics, count: int, seed: int, sigma_px: float = 0.1) -
 
 
 def _is_unfolded(pixels: Array) -> bool:
-    """Whether neighbours along both directions of the board keep their order, as before the fold of a lens."""
+    """Whether neighbours along both directions of the board keep their order, as before a fold."""
     grid = pixels.reshape(BOARD.rows, BOARD.columns, 2)
     across, down = np.diff(grid, axis=1)[:-1], np.diff(grid, axis=0)[:, :-1]
     return bool(np.all(across[..., 0] * down[..., 1] - across[..., 1] * down[..., 0] > 50.0))
