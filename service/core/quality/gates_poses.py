@@ -120,7 +120,7 @@ def _separation(evidence: Evidence) -> Measurement:
 
 
 def nearest_views(views: Sequence[NamedDetection], corners: int) -> tuple[float, str, str]:
-    """Return the smallest mean distance of the corners of two views, px, and their names; 0 for the same file.
+    """Return the smallest mean distance, px, of two views' corners, and their names; 0 for the same file.
 
     Infinite where no two views share a corner.
     """
