@@ -42,13 +42,17 @@ def is_whole(grid: CornerGrid, target: Chessboard) -> bool:
     return shape == tuple(sorted((target.columns, target.rows))) and bool(grid.known.all())
 
 
-def order_corners(grid: CornerGrid, target: Chessboard) -> Array:
-    """Return the corners (rows * columns, 2) px of a whole board in the target's order."""
+def order_corners(grid: CornerGrid, target: Chessboard) -> tuple[Array, bool]:
+    """Return a whole board's corners (rows, columns, 2) px in the target's order, and whether its rule holds.
+
+    The rule, a dark square outside corner 0, cannot hold on a symmetric board that is printed with bright
+    corners.
+    """
     turned = [np.rot90(grid.points, turn) for turn in range(4)]
     dark = [_cell_is_dark(grid, turn) for turn in range(4)]
     fitting = [turn for turn in range(4) if turned[turn].shape[:2] == (target.rows, target.columns)]
     best = max(fitting, key=lambda turn: (dark[turn], _rightward(turned[turn])))
-    return np.ascontiguousarray(turned[best].reshape(-1, 2))
+    return np.ascontiguousarray(turned[best]), dark[best]
 
 
 def _cell_is_dark(grid: CornerGrid, turn: int) -> bool:

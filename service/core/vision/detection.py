@@ -67,12 +67,12 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
     corners_needed), WrongTarget when the board has more rows or columns than declared (facts: found_columns,
     found_rows), Unprocessable when the array is no grey image.
     """
-    check_grey_image(image)
+    image = check_grey_image(image)
     grid = _find_board(image, smooth(image, PROVING_SIGMA_PX), target)
-    corners = order_corners(grid, target).reshape(target.rows, target.columns, 2)
+    corners, dark_first = order_corners(grid, target)
     sharpness = measure_sharpness(image.astype(np.float32), corners)
     blurred = smooth(image, REFINING_SIGMA_PX)
-    cells = read_cells(blurred, corners)
+    cells = read_cells(blurred, corners, dark_first)
     light = fit_light(cells)
     parity = measure_parity(cells, light)
     _check_parity(parity, target)
@@ -96,7 +96,7 @@ def check_grey_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     if min(image.shape) < SMALLEST_IMAGE_PX:
         height, width = image.shape
         raise Unprocessable(f"An image must be at least 32x32 px; this one is {width}x{height}.")
-    return image
+    return np.ascontiguousarray(image)
 
 
 def _find_board(image: NDArray[np.uint8], blurred: FloatImage, target: Chessboard) -> CornerGrid:

@@ -40,8 +40,8 @@ class LightFall:
         return _surface(self.bright, x, y), _surface(self.dark, x, y)
 
 
-def read_cells(blurred: FloatImage, corners: Array) -> Cells:
-    """Return the inner cells of a board's corners (rows, columns, 2) px; the first cell should be dark."""
+def read_cells(blurred: FloatImage, corners: Array, dark_first: bool = True) -> Cells:
+    """Return the inner cells of a board's corners (rows, columns, 2) px; the first should be dark, or not."""
     a, b, c, d = corners[:-1, :-1], corners[:-1, 1:], corners[1:, 1:], corners[1:, :-1]
     total = np.zeros(a.shape[:2])
     for u in (0.35, 0.5, 0.65):
@@ -50,7 +50,7 @@ def read_cells(blurred: FloatImage, corners: Array) -> Cells:
             total += sample_bilinear(blurred, spot[..., 0], spot[..., 1])
     row, column = np.indices(total.shape)
     centres = 0.25 * (a + b + c + d)
-    return Cells(centres.reshape(-1, 2), total.ravel() / 9.0, ((row + column) % 2 == 1).ravel())
+    return Cells(centres.reshape(-1, 2), total.ravel() / 9.0, ((row + column) % 2 == dark_first).ravel())
 
 
 def fit_light(cells: Cells) -> LightFall:
@@ -86,7 +86,8 @@ def even_out(
 
 
 def _surface(c: Array, x: Array, y: Array) -> Array:
-    return c[0] + x * (c[1] + c[3] * x) + y * (c[2] + c[5] * y) + c[4] * (x * y)
+    level: Array = c[0] + x * (c[1] + c[3] * x) + y * (c[2] + c[5] * y) + c[4] * (x * y)
+    return level
 
 
 def _terms(x: Array, y: Array) -> Array:

@@ -69,6 +69,30 @@ def test_a_square_board_keeps_the_dark_square_outside_its_first_corner() -> None
     assert errors_px(detection, board.corners).max() < 0.1
 
 
+@pytest.mark.parametrize(("columns", "rows"), [(8, 6), (9, 7), (6, 6)])
+def test_a_symmetric_board_printed_with_bright_corners_is_found(columns: int, rows: int) -> None:
+    board = draw_board(columns, rows, white=40.0, dark=205.0)
+    detection = detect_target(board.image(), board.target)
+    assert errors_px(detection, board.corners).max() < 0.1
+    assert detection.parity_separation > 0.9
+    assert detection.contrast > 150.0
+
+
+def test_a_board_printed_in_exchanged_colours_is_read_from_its_other_end() -> None:
+    board = draw_board(white=40.0, dark=205.0)
+    detection = detect_target(board.image(), board.target)
+    assert errors_px(detection, board.corners[::-1]).max() < 0.1
+
+
+def test_a_view_into_an_array_is_as_good_as_a_copy() -> None:
+    board = draw_board(roll_deg=10.0)
+    view = np.stack([board.image()] * 2, axis=-1)[::-1, :, 0]
+    assert np.array_equal(
+        detect_target(view, board.target).image_points,
+        detect_target(view.copy(), board.target).image_points,
+    )
+
+
 @pytest.mark.parametrize(("columns", "rows"), [(9, 6), (8, 6), (7, 7)])
 def test_a_mirrored_picture_never_gives_a_mirrored_order(columns: int, rows: int) -> None:
     board = draw_board(columns, rows)
