@@ -72,10 +72,13 @@ class PoseSetSku(Answer):
 
 
 class PredictedMapping(Answer):
-    """Expected error of the mapping from rays to pixels over the planned zone, px."""
+    """Expected error of the mapping from rays to pixels over the planned zone, px.
 
-    mean_px: float
-    worst_px: float
+    Null where the nominal lens does not reach all of the zone: its distortion folds before.
+    """
+
+    mean_px: float | None
+    worst_px: float | None
 
 
 class PredictedDiversity(Answer):

@@ -281,10 +281,14 @@ export interface PredictedDiversity {
   coverage: number;
 }
 
-/** Expected error of the mapping from rays to pixels over the planned zone, px. */
+/**
+ * Expected error of the mapping from rays to pixels over the planned zone, px.
+ *
+ * Null where the nominal lens does not reach all of the zone: its distortion folds before.
+ */
 export interface PredictedMapping {
-  mean_px: number;
-  worst_px: number;
+  mean_px: number | null;
+  worst_px: number | null;
 }
 
 /** The accuracy that a set promises at the SKU's corner noise, before anybody lifts a board. */
