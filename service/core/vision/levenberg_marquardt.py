@@ -65,7 +65,9 @@ def minimise(
     if not is_feasible(lens, start, stack.visible_points, may_fold):
         return None
     fit = _descend(lens, stack, start, free, iterations=iterations, damping=damping, may_fold=may_fold)
-    return fit if is_feasible(lens, fit.estimate, stack.visible_points) else None
+    if may_fold and not is_feasible(lens, fit.estimate, stack.visible_points):
+        return None
+    return fit
 
 
 def _descend(

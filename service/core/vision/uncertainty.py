@@ -116,7 +116,7 @@ def _best_turned(b: Intrinsics, rays: Array, pixels: Array) -> Array:
         projected, _, by_pose = project_with_jacobians(b.lens, b.vector, R[None], np.zeros((1, 3)), rays)
         difference = pixels - projected[0]
         turn, *_ = np.linalg.lstsq(by_pose[..., :3].reshape(-1, 3), difference.reshape(-1), rcond=None)
-        if np.abs(turn).max() < 1e-12:
+        if np.abs(turn).max() < 1e-10:
             break
         R = rotation_matrix(turn) @ R
     return difference
