@@ -124,6 +124,7 @@ def publish_pose_set(session: Session, pose_set_id: UUID, who: str, now: datetim
         )
     # The lock on the revision keeps two publications at the same moment from both staying published.
     session.get(SkuRevisionRow, row.sku_revision_id, with_for_update=True)
+    session.refresh(row)
     siblings = session.scalars(
         select(PoseSetRow).where(PoseSetRow.sku_revision_id == row.sku_revision_id, PoseSetRow.id != row.id)
     )

@@ -116,9 +116,9 @@ def publish_revision(session: Session, code: str, number: int, who: str, now: da
 
     Raises NotFound, and StateForbids for a retired revision.
     """
-    row = get_revision(session, code, number)
     # The lock on the SKU keeps two publications at the same moment from both staying published.
-    session.get(SkuRow, row.sku_id, with_for_update=True)
+    session.get(SkuRow, get_sku(session, code).id, with_for_update=True)
+    row = get_revision(session, code, number)
     siblings = _revisions(session, [row.sku_id])
     if publish(row, [sibling for sibling in siblings if sibling is not row], now):
         record(session, now, who, "sku.publish", f"sku:{code}", revision=number)
