@@ -47,13 +47,13 @@ def run(quick: bool) -> dict[str, Any]:
     whole = [poses.pose(i) for i in range(len(poses))]
     images = [prepared.render(pose, rng) for pose in whole]
     truths = [true_corners(prepared.scene, pose) for pose in whole]
-    cut = [prepared.render(_cut_off(pose), rng) for pose in whole[::3]]
+    cut = [prepared.render(cut_off(pose), rng) for pose in whole[::3]]
     nothing = Pose(np.zeros(3), np.array([50.0, 0.0, 1.0]))
     empty = [_background(prepared, seed).render(nothing, rng) for seed in range(2 if quick else 12)]
     return {
-        "ours": _judge(_ours, images, truths),
-        "opencv": _judge(_opencv, images, truths),
-        "opencv_sb": _judge(_opencv_sb, images[: len(images) // 3], truths),
+        "ours": judge(_ours, images, truths),
+        "opencv": judge(_opencv, images, truths),
+        "opencv_sb": judge(_opencv_sb, images[: len(images) // 3], truths),
         "wrong_target_share": float(np.mean([_names_the_board(image) for image in images])),
         "cut_off": _judge_refusals(cut),
         "empty": _judge_refusals(empty),
@@ -78,7 +78,8 @@ def table(result: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _judge(find: Finder, images: list[Image], truths: list[Array]) -> dict[str, float]:
+def judge(find: Finder, images: list[Image], truths: list[Array]) -> dict[str, float]:
+    """Return the shares found and read wrongly, the errors and the times of a finder on pictures."""
     times, errors, wrong = [], [], 0
     for image, truth in zip(images, truths, strict=False):
         began = time.perf_counter()
@@ -159,7 +160,7 @@ def _dark_first(image: Image, corners: Array) -> Array:
     return corners if first < second else corners[::-1]
 
 
-def _cut_off(pose: Pose) -> Pose:
+def cut_off(pose: Pose) -> Pose:
     """Move a board sideways until part of its corners is beyond the border."""
     width, _ = LENS1.image_size
     step = np.array([0.1 * TARGET.square_m * np.sign(pose.tvec[0]), 0.0, 0.0])
