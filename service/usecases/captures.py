@@ -30,6 +30,7 @@ from service.usecases.observation import (
     pose_to_json,
     sharpness_to_json,
 )
+from service.usecases.runs import get_run
 from service.usecases.sku_document import SkuDocument
 
 
@@ -108,11 +109,7 @@ def lock_open_run(session: Session, run_id: UUID) -> RunRow:
 
     Raises NotFound and what `check_open` raises.
     """
-    run = session.get(RunRow, run_id, with_for_update=True)
-    if run is None:
-        raise NotFound(
-            "There is no run of this id. List the runs of the serial to find it.", run_id=str(run_id)
-        )
+    run = get_run(session, run_id, lock=True)
     check_open(run.state, str(run_id))
     return run
 
@@ -135,11 +132,7 @@ def _find_same(
 
 
 def _prescription(session: Session, run_id: UUID, pose_index: int | None) -> Prescription:
-    run = session.get(RunRow, run_id)
-    if run is None:
-        raise NotFound(
-            "There is no run of this id. List the runs of the serial to find it.", run_id=str(run_id)
-        )
+    run = get_run(session, run_id)
     check_open(run.state, str(run_id))
     document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
     revision = SkuDocument.model_validate(document).to_revision()

@@ -22,18 +22,10 @@ from service.usecases.observation import outer_corners
 from service.usecases.planning import PLAN_POSE_SET, PlanRequest, describe_import
 from service.usecases.publication import publish
 from service.usecases.sku_document import Revision, SkuDocument
-from service.usecases.skus import get_revision
+from service.usecases.skus import SkuReference, get_revision
 
 JsonObject = dict[str, Any]
 Triple = tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class SkuReference:
-    """Which revision of which SKU."""
-
-    code: str
-    revision: int
 
 
 @dataclass(frozen=True)

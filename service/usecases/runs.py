@@ -25,7 +25,7 @@ from service.usecases.audit import record
 from service.usecases.capture_views import CaptureView, view_captures
 from service.usecases.paging import PageRequest, Part, page_of
 from service.usecases.results import ResultView, find_result
-from service.usecases.skus import get_published_revision
+from service.usecases.skus import SkuReference, get_published_revision
 from service.usecases.stations import get_station
 
 
@@ -37,14 +37,6 @@ class Order:
     serial: str
     station: str | None
     purpose: Purpose
-
-
-@dataclass(frozen=True)
-class SkuReference:
-    """Which revision of which SKU."""
-
-    code: str
-    revision: int
 
 
 @dataclass(frozen=True)

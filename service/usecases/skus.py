@@ -18,6 +18,14 @@ from service.usecases.sku_document import SkuDocument
 
 
 @dataclass(frozen=True)
+class SkuReference:
+    """Which revision of which SKU."""
+
+    code: str
+    revision: int
+
+
+@dataclass(frozen=True)
 class SkuView:
     """A SKU with the numbers of its revisions that count, and the revisions themselves where asked for."""
 
