@@ -54,7 +54,7 @@ class Settings(BaseSettings):
         "text", description="Log lines for people (text) or machines (json)"
     )
     max_upload_mb: int = Field(32, ge=1, description="Largest request body, in megabytes of 10^6 bytes")
-    max_image_megapixels: int = Field(50, ge=1, description="Largest image, in millions of pixels")
+    max_image_megapixels: int = Field(24, ge=1, description="Largest image, in millions of pixels")
     shutdown_grace_s: float = Field(20.0, ge=0, description="Seconds for requests and jobs to end at a stop")
     jobs: JobSettings = JobSettings()
 

@@ -1,7 +1,7 @@
 """From a camera, a target and a pose space to the ordered pose set, with the accuracy that it promises."""
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -46,10 +46,10 @@ class PoseSet:
     expected_mapping: MappingError
     condition: float
     diversity: Diversity
-    seed: int
-    candidates: int
     sigma_px: float
-    objective: Objective
+    seed: int = 0
+    candidates: int = 0
+    objective: Objective = "balanced"
     planner: str = PLANNER
 
 
@@ -74,16 +74,16 @@ def plan_pose_set(
     done, 0…1; what it raises ends the planning. Raises PoseSpaceEmpty, or PoseSetInfeasible where no set
     keeps the separation or determines the camera.
     """
+    zone = zone or zone_within(intrinsics.image_size, space.image_margin_px)
     report = progress or _ignore
     check_count(count, candidates)
-    zone = zone or zone_within(intrinsics.image_size, space.image_margin_px)
     poses = sample_poses(space, intrinsics, target, candidates, seed)
     report(SAMPLED)
-    pixels = project(intrinsics, poses.rotations, poses.translations, target.object_points)
     free = free_parameters(intrinsics.lens, fixed)
+    information = pose_information(intrinsics, target, poses, sigma_px)
     chosen = select_poses(
-        pose_information(intrinsics, target, poses, sigma_px)[:, free[:, None], free],
-        pixels,
+        information[:, free[:, None], free],
+        project(intrinsics, poses.rotations, poses.translations, target.object_points),
         count,
         space.separation_px,
         H=parameter_metric(intrinsics, zone)[np.ix_(free, free)],
@@ -92,11 +92,26 @@ def plan_pose_set(
         slots=required_variety(poses, target, space, count),
         progress=lambda share: report(SAMPLED + (SELECTED - SAMPLED) * share),
     )
-    chosen = chosen[order_poses(poses[chosen], target)]
     best = poses[chosen]
-    prediction = predict_accuracy(intrinsics, target, best, sigma_px, zone, fixed=fixed)
-    diversity = check_diversity(measure_diversity(best, target, pixels[chosen], intrinsics.image_size))
+    best = best[order_poses(best, target)]
+    promised = _promise(intrinsics, target, best, sigma_px, zone, fixed=fixed)
     report(1.0)
+    return replace(promised, seed=seed, candidates=candidates, objective=objective)
+
+
+def _promise(
+    intrinsics: Intrinsics,
+    target: Chessboard,
+    best: Poses,
+    sigma_px: float,
+    zone: Region,
+    *,
+    fixed: Collection[str],
+) -> PoseSet:
+    """What an ordered set promises. Raises PoseSetInfeasible where its poses are too much alike."""
+    pixels = project(intrinsics, best.rotations, best.translations, target.object_points)
+    diversity = check_diversity(measure_diversity(best, target, pixels, intrinsics.image_size))
+    prediction = predict_accuracy(intrinsics, target, best, sigma_px, zone, fixed=fixed)
     return PoseSet(
         poses=tuple(best.pose(i) for i in range(len(best))),
         expected_norm_px=prediction.norm_px,
@@ -104,10 +119,7 @@ def plan_pose_set(
         expected_mapping=prediction.mapping,
         condition=prediction.condition,
         diversity=diversity,
-        seed=seed,
-        candidates=candidates,
         sigma_px=sigma_px,
-        objective=objective,
     )
 
 

@@ -1,8 +1,10 @@
 // Entry of dashboard.html: what must be known before the first drawing, then the drawing.
 import "../look/tokens.css";
 import "../look/page.css";
+import "../look/notices.css";
 import "../look/tables.css";
 import "../look/run.css";
+import "../look/drawings.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
 import { showFirstTheme } from "../look/theme";
