@@ -1,3 +1,3 @@
-"""dmscal: calibration of driver-monitoring cameras with pose guidance. ARCHITECTURE.md says where new code goes."""
+"""dmscal: calibration of driver-monitoring cameras with pose guidance. See ARCHITECTURE.md."""
 
 __version__ = "0.1.0"

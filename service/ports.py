@@ -45,7 +45,7 @@ class BlobStore(Protocol):
         ...
 
 
-class JobCancelled(Exception):  # noqa: N818 - it says what happened and is no error
+class JobCancelled(Exception):
     """Ends a handler whose job was cancelled or taken over; raised by `JobRun.report`."""
 
 
