@@ -1,5 +1,6 @@
 """A virtual vehicle of a SKU: a camera within its tolerance, and its pictures at the prescribed poses."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -12,6 +13,9 @@ from service.core.vision.transforms import Pose
 from service.simulator.renderer import prepare
 from service.simulator.scene import production_scene
 from service.simulator.vehicle import Mismatch, Tolerance, draw_camera, take_captures
+
+# A hand that sees the ghost of the board on its screen, as a guided operator does.
+HAND = Mismatch(position_m=0.002, angle_rad=math.radians(0.7))
 
 
 def draw_vehicle(sku: Mapping[str, Any], rng: np.random.Generator) -> Intrinsics:
@@ -29,5 +33,5 @@ def photograph(
     rng = np.random.default_rng(seed)
     for pose in poses:
         wanted = Pose(np.array(pose["rvec"]), np.array(pose["tvec"]))
-        for capture in take_captures(prepared, [wanted], Mismatch(), rng):
+        for capture in take_captures(prepared, [wanted], HAND, rng):
             yield capture.image

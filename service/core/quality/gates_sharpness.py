@@ -7,6 +7,7 @@ each view.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.quality.evidence import Evidence
 from service.core.quality.gates import Measurement, check_limit
@@ -24,19 +25,31 @@ def measure_sharpness(evidence: Evidence) -> tuple[Measurement, ...]:
 def _edge_width(evidence: Evidence) -> Measurement:
     # A view whose edges could not be measured is no sharper than the softest one.
     widths = [np.nan_to_num(v.detection.sharpness.edge_width_px, nan=np.inf) for v in evidence.views]
-    worst = evidence.views[int(np.argmax(widths))]
+    limit = evidence.limits.edge_width_px
+    blurred, remedy = _who_is_blurred(evidence, np.array(widths) > limit, int(np.argmax(widths)))
     return check_limit(
         GATE,
         "edge_width_px",
         float(max(widths)),
         "<=",
-        evidence.limits.edge_width_px,
+        limit,
         unit="px",
         share=evidence.limits.share("edge_width_px"),
         good="Every view is sharp.",
-        bad=f"{worst.name} is blurred.",
-        remedy=f"Take {worst.name} again: focus the lens, hold the board still, shorten the exposure, "
-        "or keep the board further away.",
+        bad=blurred,
+        remedy=remedy,
+    )
+
+
+def _who_is_blurred(evidence: Evidence, is_blurred: NDArray[np.bool_], worst: int) -> tuple[str, str]:
+    """Say which views are blurred and what helps: one view is taken again, most of them mean the lens."""
+    count, views = int(is_blurred.sum()), len(evidence.views)
+    if count > views / 2:
+        return f"{count} of {views} views are blurred.", "Focus the lens, then take the views again."
+    names = evidence.views[worst].name + (f" and {count - 1} more" if count > 1 else "")
+    return (
+        f"{names} {'are' if count > 1 else 'is'} blurred.",
+        f"Take {names} again: hold the board still, shorten the exposure, or keep it further away.",
     )
 
 

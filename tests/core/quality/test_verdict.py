@@ -112,6 +112,13 @@ def test_a_blurred_view_is_named() -> None:
     assert "05.png" in found.advice
 
 
+def test_a_lens_out_of_focus_is_told_from_one_blurred_view() -> None:
+    views = [with_sharpness(v, Sharpness(8.2, (8.2,) * 4, 8.2)) for v in see_poses()]
+    found = measured(judge(views), "edge_width_px")
+    assert found.verdict is Verdict.FAIL
+    assert f"{len(views)} of {len(views)} views are blurred. Focus the lens" in found.advice
+
+
 def test_edges_that_could_not_be_measured_are_not_sharp() -> None:
     views = see_poses()
     views[5] = with_sharpness(views[5], Sharpness(float("nan"), (float("nan"),) * 4, float("nan")))
