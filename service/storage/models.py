@@ -14,7 +14,7 @@ from sqlalchemy.orm import DeclarativeBase, Mapped, MappedAsDataclass, mapped_co
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.storage.columns import Json, UtcDateTime, new_id, word
-from service.storage.words import JobState, Publication, Role
+from service.storage.words import FrameOrigin, JobState, Publication, Role
 
 JsonObject = dict[str, Any]
 JsonArray = list[Any]
@@ -142,6 +142,9 @@ class StationRow(Row):
     code: Mapped[str] = mapped_column(unique=True)
     name: Mapped[str]
     target_id: Mapped[UUID | None] = mapped_column(_refers_to("target.id"), default=None)
+    source: Mapped[FrameOrigin] = mapped_column(
+        word(FrameOrigin, "source"), default=FrameOrigin.BROWSER, server_default=FrameOrigin.BROWSER.value
+    )
     created_at: Mapped[datetime]
 
 

@@ -29,3 +29,10 @@ class Role(StrEnum):
     OPERATOR = "operator"
     ENGINEER = "engineer"
     ADMIN = "admin"
+
+
+class FrameOrigin(StrEnum):
+    """Where a station's live frames come from: the kiosk's own camera, or the simulator in the service."""
+
+    BROWSER = "browser"
+    VIRTUAL = "virtual"

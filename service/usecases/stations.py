@@ -8,20 +8,28 @@ from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound
 from service.storage.models import StationRow, TargetRow
+from service.storage.words import FrameOrigin
 from service.usecases.audit import record
 from service.usecases.paging import PageRequest, Part, page_of
 
 
 def create_station(
-    session: Session, code: str, name: str, target_id: UUID | None, *, who: str, now: datetime
+    session: Session,
+    code: str,
+    name: str,
+    target_id: UUID | None,
+    *,
+    source: FrameOrigin = FrameOrigin.BROWSER,
+    who: str,
+    now: datetime,
 ) -> StationRow:
     """Register a station; raises NotFound for an unknown board, AlreadyExists for a code that is taken."""
     if target_id is not None and session.get(TargetRow, target_id) is None:
         raise NotFound("There is no target of this id. Register the board first.", target_id=str(target_id))
-    row = StationRow(code=code, name=name, target_id=target_id, created_at=now)
+    row = StationRow(code=code, name=name, target_id=target_id, source=source, created_at=now)
     session.add(row)
     session.flush()
-    record(session, now, who, "station.create", f"station:{code}", name=name)
+    record(session, now, who, "station.create", f"station:{code}", name=name, source=source.value)
     return row
 
 

@@ -9,6 +9,7 @@ from pydantic import ConfigDict, Field
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
 from service.api.shapes import Answer, Page, Request
+from service.storage.words import FrameOrigin
 from service.usecases import stations
 from service.usecases.text import Code, Label
 
@@ -21,6 +22,11 @@ class NewStation(Request):
     code: Code
     name: Label
     target_id: UUID | None = Field(default=None, strict=False, description="Board that stands there.")
+    source: FrameOrigin = Field(
+        default=FrameOrigin.BROWSER,
+        strict=False,
+        description="Where live frames come from: the kiosk's own camera, or the simulator (`virtual`).",
+    )
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"code": "line1-cal2", "name": "Line 1, calibration 2"}]}
@@ -34,6 +40,7 @@ class Station(Answer):
     code: str
     name: str
     target_id: UUID | None
+    source: FrameOrigin
     created_at: datetime
 
 
@@ -41,7 +48,9 @@ class Station(Answer):
 def create_station(body: NewStation, caller: Engineer, db: Db, now: Now) -> Station:
     """Register a calibration place. Runs name it by its code."""
     return Station.model_validate(
-        stations.create_station(db, body.code, body.name, body.target_id, who=caller.name, now=now)
+        stations.create_station(
+            db, body.code, body.name, body.target_id, source=body.source, who=caller.name, now=now
+        )
     )
 
 

@@ -82,12 +82,22 @@ export interface CaptureDetail {
   contrast: number;
 }
 
+/** A measurement that failed, and in how many of the runs. */
+export interface FailedGate {
+  gate: string;
+  name: string;
+  runs: number;
+}
+
 /** One invalid field. */
 export interface FieldError {
   /** Where: a JSON pointer into the body, or the parameter's place and name. */
   pointer: string;
   detail: string;
 }
+
+/** Where a station's live frames come from: the kiosk's own camera, or the simulator in the service. */
+export type FrameOrigin = "browser" | "virtual";
 
 /** Work in the background. */
 export interface Job {
@@ -167,6 +177,8 @@ export interface NewStation {
   name: string;
   /** Board that stands there. */
   target_id?: string | null;
+  /** Where live frames come from: the kiosk's own camera, or the simulator (`virtual`). */
+  source?: FrameOrigin;
 }
 
 /** A board to register. */
@@ -200,6 +212,12 @@ export interface PageSkuRevision {
 
 export interface PageSku {
   items: Sku[];
+  /** Give it as `cursor` to go on; null: this was the last part. */
+  next_cursor: string | null;
+}
+
+export interface PageStationStanding {
+  items: StationStanding[];
   /** Give it as `cursor` to go on; null: this was the last part. */
   next_cursor: string | null;
 }
@@ -508,7 +526,16 @@ export interface Station {
   code: string;
   name: string;
   target_id: string | null;
+  source: FrameOrigin;
   created_at: string;
+}
+
+/** A station with its newest open run and its newest finished one of the last 30 days. */
+export interface StationStanding {
+  code: string;
+  name: string;
+  open_run: RunSummary | null;
+  last_run: RunSummary | null;
 }
 
 /** A board. */
@@ -536,4 +563,32 @@ export interface ViewResult {
   rms_px: number;
   max_px: number;
   pose: BoardPose;
+}
+
+/**
+ * What came out of the line from `since` to `until`, both included.
+ *
+ * First-pass yield is `first_passed` / `first_runs`, summed over whatever is of interest.
+ */
+export interface Yield {
+  since: string;
+  until: string;
+  counts: YieldCount[];
+  /** Most failed runs first. */
+  gates: FailedGate[];
+}
+
+/** Finished runs of production and retest of one SKU at one station that were opened on one day (UTC). */
+export interface YieldCount {
+  sku: string;
+  /** Code of the station; null: runs that named none. */
+  station: string | null;
+  day: string;
+  passed: number;
+  marginal: number;
+  failed: number;
+  /** Of these, the first ones of their serial and SKU. */
+  first_runs: number;
+  /** Of the first ones, those with the verdict PASS or MARGINAL. */
+  first_passed: number;
 }

@@ -1,0 +1,1 @@
+"""The guidance socket: its messages, and the endpoint that carries them. Not here: what guidance decides."""
