@@ -379,3 +379,10 @@ class BlobDamaged(Unavailable):
 
     code = "blob-damaged"
     title = "The stored image is damaged"
+
+
+class FrameForgotten(NotFound):
+    """A live frame that is too old to be captured, or never was."""
+
+    code = "frame-forgotten"
+    title = "The live frame is no longer kept"

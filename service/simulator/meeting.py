@@ -32,7 +32,7 @@ def meet_board(scene: Scene, plate: Plate, rays: RayMap, pose: Pose) -> Meeting 
     if abs(R[:, 2] @ pose.tvec) < 1e-6:  # seen exactly from its edge
         return None
     inverse = np.linalg.inv(np.column_stack([R[:, 0] * square, R[:, 1] * square, pose.tvec]))
-    top, bottom, left, right = _bounds(scene, plate, pose)
+    top, bottom, left, right = board_bounds(scene, plate, pose)
     x, y = rays.ideal[:, top:bottom, left:right]
     a, b, c = (row[0] * x + row[1] * y + row[2] for row in inverse)
     (low_u, high_u), (low_v, high_v) = plate.reach
@@ -46,7 +46,7 @@ def meet_board(scene: Scene, plate: Plate, rays: RayMap, pose: Pose) -> Meeting 
     return Meeting((rows + top, columns + left), uv, c, inverse)
 
 
-def _bounds(scene: Scene, plate: Plate, pose: Pose) -> tuple[int, int, int, int]:
+def board_bounds(scene: Scene, plate: Plate, pose: Pose) -> tuple[int, int, int, int]:
     """Return top, bottom, left, right of the pixels that may see the plate; the whole picture in doubt."""
     width, height = scene.intrinsics.image_size
     (low_u, high_u), (low_v, high_v) = plate.reach

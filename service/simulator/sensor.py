@@ -12,7 +12,7 @@ Levels = NDArray[np.float32]
 NOISE_LEVEL = 128.0
 
 
-def expose(light: Array, scene: Scene, rng: np.random.Generator) -> NDArray[np.uint8]:
+def expose(light: Array | Levels, scene: Scene, rng: np.random.Generator) -> NDArray[np.uint8]:
     """Return the picture (h, w) that a scene's sensor reads from light (h, w), grey levels at exposure 1."""
     levels = (light * scene.exposure).astype(np.float32)  # 24 bits: a millionth of a grey level is kept
     if scene.blur_px > 0:

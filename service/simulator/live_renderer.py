@@ -1,0 +1,141 @@
+"""Draws live frames: half size, soft edges instead of exact shares, a fraction of the exact renderer's time.
+
+An edge is a ramp as wide as the pixel's footprint across it, so that corners stay where they are; lamp, lens
+and sensor are those of the scene, halved. What is measured on is drawn by the exact renderer.
+"""
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.camera import Intrinsics
+from service.core.vision.transforms import Array, Pose
+from service.simulator.background import paint_background
+from service.simulator.board import make_plate
+from service.simulator.lighting import lens_falloff
+from service.simulator.meeting import board_bounds
+from service.simulator.ray_map import trace_rays
+from service.simulator.scene import Scene
+from service.simulator.sensor import expose
+
+Levels = NDArray[np.float32]
+
+SCALE = 2  # full-size pixels per pixel of a live frame
+WIDEST_RAMP = 1.0  # of a square: wider, and its neighbours would be left out
+
+
+class LiveRenderer:
+    """A scene ready for live frames at half size (a pixel is the mean of 2x2 of the camera's)."""
+
+    scale = SCALE
+
+    def __init__(self, scene: Scene) -> None:
+        """Trace the rays of the half-size picture; takes a third of a second."""
+        self._scene = halve_scene(scene)
+        self._plate = make_plate(scene.target, scene.border_squares)
+        rays = trace_rays(self._scene.intrinsics).ideal
+        self._rays = np.nan_to_num(rays).astype(np.float32)
+        self._reached = np.isfinite(rays[0])
+        self._falloff = lens_falloff(self._scene).astype(np.float32)
+        background = paint_background(scene.intrinsics.image_size, scene.clutter, scene.seed)
+        self._background = _half(background) * self._falloff
+
+    def frame(self, pose: Pose, rng: np.random.Generator) -> NDArray[np.uint8]:
+        """Return a frame (h, w) of half the camera's width and height, with the board at a pose."""
+        return expose(self._light(pose), self._scene, rng)
+
+    def _light(self, pose: Pose) -> Levels:
+        light = self._background.copy()
+        top, bottom, left, right = board_bounds(self._scene, self._plate, pose)
+        R, square = pose.rotation, self._scene.target.square_m
+        if min(bottom - top, right - left) < 3 or abs(R[:, 2] @ pose.tvec) < 1e-6:
+            return light
+        part = np.s_[top:bottom, left:right]
+        inverse = np.linalg.inv(np.column_stack([R[:, 0] * square, R[:, 1] * square, pose.tvec]))
+        x, y = self._rays[0][part], self._rays[1][part]
+        a, b, c = (np.float32(row[0]) * x + np.float32(row[1]) * y + np.float32(row[2]) for row in inverse)
+        ahead = (c > 1e-3) & self._reached[part]
+        c = np.maximum(c, np.float32(1e-3))
+        u, v = a / c, b / c
+        plate, dark = self._shares(u, v)
+        plate *= ahead
+        if R[:, 2] @ pose.tvec < 0:  # the back of the plate has no pattern
+            dark[:] = 0.0
+        grey = (
+            self._scene.white_grey * plate + (self._scene.dark_grey - self._scene.white_grey) * dark * plate
+        )
+        grey *= self._lamp_gain(pose, u, v) * self._falloff[part]
+        light[part] += grey - plate * light[part]
+        return light
+
+    def _shares(self, u: Levels, v: Levels) -> tuple[Levels, Levels]:
+        """Return the shares (h, w) of pixels that show the plate, and its dark squares, softly."""
+        steps_u, steps_v = _footprint(u), _footprint(v)
+        columns, rows = self._scene.target.columns, self._scene.target.rows
+        border = 1.0 + self._scene.border_squares
+        plate = _window(u, steps_u, -border, columns - 1.0 + border)
+        plate *= _window(v, steps_v, -border, rows - 1.0 + border)
+        dark = 1.0 + _wave(u, steps_u, columns) * _wave(v, steps_v, rows)
+        dark *= 0.5 * _window(u, steps_u, -1.0, columns) * _window(v, steps_v, -1.0, rows)
+        return plate, dark
+
+    def _lamp_gain(self, pose: Pose, u: Levels, v: Levels) -> Levels:
+        """Return the lamp's light on the board (h, w), as `lighting.lamp_gain`, in single precision."""
+        scene = self._scene
+        if scene.shading == 0.0:
+            return np.ones_like(u)
+        R, square = pose.rotation, scene.target.square_m
+        start = pose.tvec - np.array(scene.light_m)
+        centre = start + R @ scene.target.centre
+        by_u, by_v = 2.0 * square * (start @ R[:, :2])
+        distance_sq = u * (np.float32(square**2) * u + np.float32(by_u))
+        distance_sq += v * (np.float32(square**2) * v + np.float32(by_v)) + np.float32(start @ start)
+        nearness = np.float32(centre @ centre) / np.maximum(distance_sq, np.float32(1e-6))
+        return np.asarray(cv2.pow(nearness, 1.5 * scene.shading), dtype=np.float32)
+
+
+def halve_scene(scene: Scene) -> Scene:
+    """Return the scene as a camera with pixels of 2x2 of this one's sees it."""
+    full = scene.intrinsics
+    vector = full.vector / np.where(np.arange(len(full.vector)) < 4, SCALE, 1)
+    vector[2:4] += 0.5 / SCALE - 0.5
+    size = (full.image_size[0] // SCALE, full.image_size[1] // SCALE)
+    return replace(
+        scene,
+        intrinsics=Intrinsics.from_vector(full.lens, vector, size),
+        blur_px=scene.blur_px / SCALE,
+        noise_grey=scene.noise_grey / SCALE,
+    )
+
+
+def _half(picture: Array) -> Levels:
+    height, width = (size // SCALE * SCALE for size in picture.shape)
+    even = picture[:height, :width].astype(np.float32)
+    return np.asarray(cv2.resize(even, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.float32)
+
+
+def _footprint(u: Levels) -> Levels:
+    """Return how far (h, w) a coordinate changes over a pixel, at most a square."""
+    dx = cv2.Sobel(u, cv2.CV_32F, 1, 0, ksize=1, scale=0.5, borderType=cv2.BORDER_REPLICATE)
+    dy = cv2.Sobel(u, cv2.CV_32F, 0, 1, ksize=1, scale=0.5, borderType=cv2.BORDER_REPLICATE)
+    return np.clip(cv2.magnitude(dx, dy), np.float32(1e-6), np.float32(WIDEST_RAMP))
+
+
+def _window(u: Levels, footprint: Levels, low: float, high: float) -> Levels:
+    """Return the share (h, w) of each pixel between two edges."""
+    inner: Levels = np.minimum(u - np.float32(low), np.float32(high) - u) / footprint
+    inner += np.float32(0.5)
+    np.clip(inner, 0.0, 1.0, out=inner)
+    return inner
+
+
+def _wave(u: Levels, footprint: Levels, corners: int) -> Levels:
+    """Return the mean (h, w) over each pixel of the wave that is +1 from -1 to 0 and turns at each corner."""
+    phase = np.clip(u, np.float32(-0.5), np.float32(corners - 0.5))
+    phase += np.float32(0.5)
+    phase -= np.float32(2.0) * np.rint(np.float32(0.5) * phase)
+    wave: Levels = (np.float32(0.5) - np.abs(phase)) / (np.float32(0.5) * footprint)
+    np.clip(wave, -1.0, 1.0, out=wave)
+    return wave
