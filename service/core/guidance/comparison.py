@@ -1,0 +1,146 @@
+"""How far the board that is seen is from the pose that is expected, in directions that a hand can move.
+
+All directions are those of the raw image and of the camera frame (x right, y down, z away from the camera),
+never those of the board: "up" is up in the picture however the board is turned. A shift is one parallel to
+the image, closer is along the line of sight, and turns are about the board's centre; so none of the six
+changes another one. Not here: words for them (`hints`) and when to capture (`auto_capture`).
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from service.core.vision.camera import Intrinsics, project, project_camera_points
+from service.core.vision.target import Chessboard
+from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
+
+# A board whose x axis points elsewhere by more than this is better turned round than rotated.
+UPSIDE_DOWN_RAD: Final = float(np.deg2rad(120.0))
+WIDTH_OF_TOLERANCES: Final = 1280
+BAR_REACH: Final = 4.0  # an error of so many tolerances beyond the first halves the match bar
+UNSEEN_PX: Final = 1e4
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """How far off a pose may be.
+
+    corner_px: of the four outer corners, mean. offset_px: of the board's centre in the image. distance_share:
+    of the depth. tilt_rad, turn_rad, roll_rad: about the image's x, y and z axes.
+    Corners and angles decide the match; offset and distance only scale hints, as corners cover them.
+    """
+
+    corner_px: float
+    offset_px: float = 30.0
+    distance_share: float = 0.05
+    tilt_rad: float = float(np.deg2rad(7.0))
+    turn_rad: float = float(np.deg2rad(7.0))
+    roll_rad: float = float(np.deg2rad(5.0))
+
+
+@dataclass(frozen=True)
+class PoseDifference:
+    """How the board must move to reach the expected pose.
+
+    right_px, down_px: of the board's centre in the raw image. closer_share: seen depth over expected depth
+    minus 1, so > 0 means closer. The angles are the rotation vector, in camera axes, that turns the seen
+    board into the expected one:
+
+        tilt_rad > 0, about x (right):  the TOP edge comes to the camera, the bottom edge goes away from it
+        turn_rad > 0, about y (down):   the LEFT edge goes away from the camera, the right edge comes to it
+        roll_rad > 0, about z (away):   CLOCKWISE in the raw image: the right edge goes down
+
+    Seen from the side, the camera left:     Seen from above, the camera below:
+
+        tilt > 0   top /                         turn > 0   left \\
+              (o)     /                                          \\  right
+                     / bottom                             (o)
+
+    corner_px: mean distance of the four outer corners, the paper's rule. effects_px: by how much each of the
+    six errors alone moves those corners, in the order of the fields. is_upside_down: turned by about 180°.
+    """
+
+    right_px: float
+    down_px: float
+    closer_share: float
+    tilt_rad: float
+    turn_rad: float
+    roll_rad: float
+    corner_px: float
+    is_upside_down: bool
+    effects_px: tuple[float, float, float, float, float, float]
+
+
+def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
+    """Return the tolerances for an image (width, height) px: corners within 2 % of its width."""
+    scale = image_size[0] / WIDTH_OF_TOLERANCES
+    return Tolerances(corner_px=0.02 * image_size[0], offset_px=30.0 * scale)
+
+
+def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Chessboard) -> PoseDifference:
+    """Return how the seen board must move to reach the expected pose; both poses before the camera."""
+    R, R_seen = expected.rotation, seen.rotation
+    wanted, found = R @ target.centre + expected.tvec, R_seen @ target.centre + seen.tvec
+    right, down = project_camera_points(intrinsics, wanted) - project_camera_points(intrinsics, found)
+    closer = found[2] / wanted[2] - 1.0
+    turns = rotation_vector(R @ R_seen.T)
+    outer = target.object_points[list(target.outer_corners)] - target.centre
+    rotations, centres = _displaced(R, wanted, turns, closer)
+    corners = project(
+        intrinsics, np.concatenate([rotations, R_seen[None]]), np.vstack([centres, found]), outer
+    )
+    distances = np.linalg.norm(corners[1:] - corners[0], axis=-1).mean(axis=-1)
+    closer_px, tilt_px, turn_px, roll_px, corner_px = (
+        float(d) for d in np.nan_to_num(distances, nan=UNSEEN_PX)
+    )
+    tilt, turn, roll = (float(angle) for angle in turns)
+    return PoseDifference(
+        right_px=float(right),
+        down_px=float(down),
+        closer_share=float(closer),
+        tilt_rad=tilt,
+        turn_rad=turn,
+        roll_rad=roll,
+        corner_px=corner_px,
+        is_upside_down=_axis_angle(R, R_seen) > UPSIDE_DOWN_RAD,
+        effects_px=(abs(float(right)), abs(float(down)), closer_px, tilt_px, turn_px, roll_px),
+    )
+
+
+def is_match(difference: PoseDifference, tolerances: Tolerances) -> bool:
+    """Whether the board is where it should be: outer corners and each angle within their tolerances."""
+    return not difference.is_upside_down and max(_match_errors(difference, tolerances)) <= 1.0
+
+
+def match_share(difference: PoseDifference, tolerances: Tolerances) -> float:
+    """Return how good the match is: 1 exactly where `is_match` holds, 0 for a board turned by 180°.
+
+    From errors in units of their tolerances and not from pixels: a tilt of 28° hardly moves a corner.
+    """
+    if difference.is_upside_down:
+        return 0.0
+    excess = [max(0.0, error - 1.0) for error in _match_errors(difference, tolerances)]
+    return float(1.0 / (1.0 + np.linalg.norm(excess) / BAR_REACH))
+
+
+def _match_errors(difference: PoseDifference, tolerances: Tolerances) -> tuple[float, float, float, float]:
+    """Return what decides the match, in units of its tolerance: corners, tilt, turn, roll."""
+    return (
+        difference.corner_px / tolerances.corner_px,
+        abs(difference.tilt_rad) / tolerances.tilt_rad,
+        abs(difference.turn_rad) / tolerances.turn_rad,
+        abs(difference.roll_rad) / tolerances.roll_rad,
+    )
+
+
+def _displaced(R: Array, centre: Array, turns: Array, closer: float) -> tuple[Array, Array]:
+    """Return the expected pose, then it with one error each: rotations (5, 3, 3), centres (5, 3) m."""
+    single = rotation_matrix(-np.diag(turns)) @ R
+    return np.concatenate([[R, R], single]), np.outer([1.0, 1.0 + closer, 1.0, 1.0, 1.0], centre)
+
+
+def _axis_angle(R: Array, R_seen: Array) -> float:
+    """Return the angle, rad, between the boards' x axes as they lie in the image."""
+    a, b = R[:2, 0], R_seen[:2, 0]
+    return float(abs(np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b)))

@@ -1,0 +1,132 @@
+"""What the operator is told, as codes: which way to move the board, and what else is missing.
+
+Directions are those of the raw image. A display that mirrors the picture mirrors the codes with it
+(`mirror_hint`). "Back" is away from the camera and "forward" towards it. Words, languages and arrows live in
+the user interface; when to capture lives in `auto_capture`.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+from typing import Final
+
+from service.core.guidance.comparison import PoseDifference, Tolerances, is_match
+
+
+class Hint(StrEnum):
+    """One instruction. The board's top, left and right are those it has in the raw image at the moment."""
+
+    MOVE_LEFT = "move-left"
+    MOVE_RIGHT = "move-right"
+    MOVE_UP = "move-up"
+    MOVE_DOWN = "move-down"
+    MOVE_CLOSER = "move-closer"
+    MOVE_AWAY = "move-away"
+    TILT_TOP_BACK = "tilt-top-back"
+    TILT_TOP_FORWARD = "tilt-top-forward"
+    TURN_LEFT_BACK = "turn-left-back"
+    TURN_RIGHT_BACK = "turn-right-back"
+    ROTATE_CLOCKWISE = "rotate-clockwise"
+    ROTATE_COUNTERCLOCKWISE = "rotate-counterclockwise"
+    TURN_UPSIDE_DOWN = "turn-upside-down"
+    HOLD_STILL = "hold-still"
+    HOLD = "hold"
+    SHOW_BOARD = "show-board"
+    SHOW_WHOLE_BOARD = "show-whole-board"
+    MORE_LIGHT = "more-light"
+    LESS_LIGHT = "less-light"
+    WRONG_BOARD = "wrong-board"
+
+
+@dataclass(frozen=True)
+class ShownHint:
+    """A hint and how far there is to go: one of AMOUNTS, 1 for much; 1 where it says nothing."""
+
+    code: Hint
+    amount: float = 1.0
+
+
+# Hints of a positive and of a negative error, in the order of PoseDifference's fields.
+DIRECTIONS: Final = (
+    (Hint.MOVE_RIGHT, Hint.MOVE_LEFT),
+    (Hint.MOVE_DOWN, Hint.MOVE_UP),
+    (Hint.MOVE_CLOSER, Hint.MOVE_AWAY),
+    (Hint.TILT_TOP_FORWARD, Hint.TILT_TOP_BACK),
+    (Hint.TURN_LEFT_BACK, Hint.TURN_RIGHT_BACK),
+    (Hint.ROTATE_CLOCKWISE, Hint.ROTATE_COUNTERCLOCKWISE),
+)
+MOST_HINTS: Final = 2
+# Each error alone may move the outer corners by this share of their tolerance.
+EFFECT_SHARE: Final = 0.6
+# A hint that is being followed is kept until its error is within this share of its tolerance.
+KEPT_UNTIL: Final = 0.7
+# Up to so many tolerances, so much is left to go.
+AMOUNTS: Final = ((2.0, 0.1), (4.0, 0.25), (8.0, 0.5), (float("inf"), 1.0))
+
+_MIRRORED_PAIRS: Final = (
+    (Hint.MOVE_LEFT, Hint.MOVE_RIGHT),
+    (Hint.TURN_LEFT_BACK, Hint.TURN_RIGHT_BACK),
+    (Hint.ROTATE_CLOCKWISE, Hint.ROTATE_COUNTERCLOCKWISE),
+)
+MIRRORED: Final[Mapping[Hint, Hint]] = MappingProxyType(
+    {a: b for pair in _MIRRORED_PAIRS for a, b in (pair, pair[::-1])}
+)
+
+
+def choose_hints(
+    difference: PoseDifference, tolerances: Tolerances, previous: tuple[Hint, ...]
+) -> tuple[Hint, ...]:
+    """Return at most two movements: those of the previous that are not done yet, then the largest errors.
+
+    Errors are measured in units of their tolerances. None where the pose matches; only TURN_UPSIDE_DOWN where
+    the board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
+    """
+    if difference.is_upside_down:
+        return (Hint.TURN_UPSIDE_DOWN,)
+    if is_match(difference, tolerances):
+        return ()
+    errors = errors_in_tolerances(difference, tolerances)
+    limits = {hint: KEPT_UNTIL if hint in previous else 1.0 for hint in errors}
+    wanted = [hint for hint in errors if errors[hint] > limits[hint]] or [
+        max(errors, key=lambda h: errors[h])
+    ]
+    ordered = sorted(wanted, key=lambda hint: (_place(hint, previous), -errors[hint]))
+    return tuple(ordered[:MOST_HINTS])
+
+
+def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> dict[Hint, float]:
+    """Return how far there is to go in units of tolerance, by the six hints that lead there.
+
+    An error counts by its own tolerance or by what it does to the outer corners, whichever is more: near the
+    camera 5° of roll move a corner by more than corners may be off.
+    """
+    t = tolerances
+    limits = (t.offset_px, t.offset_px, t.distance_share, t.tilt_rad, t.turn_rad, t.roll_rad)
+    values = (
+        difference.right_px,
+        difference.down_px,
+        difference.closer_share,
+        difference.tilt_rad,
+        difference.turn_rad,
+        difference.roll_rad,
+    )
+    return {
+        pair[value < 0]: max(abs(value) / limit, effect / (EFFECT_SHARE * t.corner_px))
+        for pair, value, limit, effect in zip(DIRECTIONS, values, limits, difference.effects_px, strict=True)
+    }
+
+
+def coarse_amount(hint: Hint, difference: PoseDifference, tolerances: Tolerances) -> float:
+    """Return one of AMOUNTS for a movement: how far there is to go. 1 for hints that are no movement."""
+    error = errors_in_tolerances(difference, tolerances).get(hint)
+    return 1.0 if error is None else next(amount for reach, amount in AMOUNTS if error <= reach)
+
+
+def mirror_hint(hint: Hint) -> Hint:
+    """Return the hint that says the same in a mirrored picture: left and right change places."""
+    return MIRRORED.get(hint, hint)
+
+
+def _place(hint: Hint, previous: tuple[Hint, ...]) -> int:
+    return previous.index(hint) if hint in previous else MOST_HINTS

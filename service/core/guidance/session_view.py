@@ -1,0 +1,88 @@
+"""What an operator is shown of a guidance session, as numbers and codes. Not here: words and messages."""
+
+from dataclasses import dataclass
+
+from service.core.guidance.auto_capture import Obstacle, dwell_share
+from service.core.guidance.comparison import PoseDifference, match_share
+from service.core.guidance.hints import Hint, ShownHint, coarse_amount
+from service.core.guidance.observation import BoardKind
+from service.core.guidance.session import GuidanceSettings, SessionState
+from service.core.vision.camera import project
+from service.core.vision.transforms import Array
+
+OBSTACLE_HINTS = {
+    Obstacle.MOVING: Hint.HOLD_STILL,
+    Obstacle.BLURRED: Hint.HOLD_STILL,
+    Obstacle.TOO_DARK: Hint.MORE_LIGHT,
+    Obstacle.TOO_BRIGHT: Hint.LESS_LIGHT,
+}
+KIND_HINTS: dict[BoardKind, Hint] = {
+    "absent": Hint.SHOW_BOARD,
+    "partial": Hint.SHOW_WHOLE_BOARD,
+    "wrong": Hint.WRONG_BOARD,
+}
+
+
+@dataclass(frozen=True)
+class SessionView:
+    """What is shown of a session.
+
+    pose_index: the pose that is asked for, None when all are captured. board: what the latest frame showed.
+    ghost: (n, 2) px, the expected board's corners in the target's order. match, dwell: 0…1; match is 1
+    exactly where the pose matches. hints: at most two, the first one now. is_storing: a capture is on its way
+    to the disk. refused: the reason of the latest refusal, a code.
+    """
+
+    pose_index: int | None
+    captured: int
+    total: int
+    automatic: bool
+    board: BoardKind
+    ghost: Array | None
+    difference: PoseDifference | None
+    hints: tuple[ShownHint, ...]
+    match: float
+    dwell: float
+    is_storing: bool
+    refused: str | None
+
+
+def view(state: SessionState, settings: GuidanceSettings) -> SessionView:
+    """Return what is shown of a session after its latest frame."""
+    difference = state.difference
+    return SessionView(
+        pose_index=state.current,
+        captured=len(state.captured),
+        total=len(state.expected),
+        automatic=state.automatic,
+        board="absent" if state.last is None else state.last.kind,
+        ghost=_ghost(state, settings),
+        difference=difference,
+        hints=_hints(state, settings),
+        match=0.0 if difference is None else match_share(difference, settings.tolerances),
+        dwell=dwell_share(state.dwell, settings.limits),
+        is_storing=state.pending is not None,
+        refused=state.refused,
+    )
+
+
+def _ghost(state: SessionState, settings: GuidanceSettings) -> Array | None:
+    if state.current is None:
+        return None
+    pose = state.expected[state.current]
+    return project(settings.intrinsics, pose.rotation, pose.tvec, settings.target.object_points)
+
+
+def _hints(state: SessionState, settings: GuidanceSettings) -> tuple[ShownHint, ...]:
+    """Return what to do now: about the board, its pose, and what else keeps the frame from being taken."""
+    if state.current is None or state.last is None:
+        return ()
+    if state.pending is not None:
+        return (ShownHint(Hint.HOLD),)
+    if state.difference is None:
+        hint = KIND_HINTS.get(state.last.kind)
+        return () if hint is None else (ShownHint(hint),)
+    if state.moves:
+        difference = state.difference
+        return tuple(ShownHint(m, coarse_amount(m, difference, settings.tolerances)) for m in state.moves)
+    return (ShownHint(Hint.HOLD if state.obstacle is None else OBSTACLE_HINTS[state.obstacle]),)
