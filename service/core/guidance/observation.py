@@ -1,19 +1,17 @@
 """What one live frame showed: the only thing that guidance knows of the world. Not here: how it was found."""
 
 from dataclasses import dataclass
-from typing import Literal
 
+from service.core.vision.live_detection import BoardKind
 from service.core.vision.transforms import Array, Pose
-
-BoardKind = Literal["present", "partial", "absent", "wrong"]
 
 
 @dataclass(frozen=True)
 class Observation:
     """What a frame showed, and when.
 
-    at_s: when the frame was taken, on a clock that only goes forward. kind: the whole declared board, a part of
-    it, none, or another one. pose: `T_cam_board`; image_points: (n, 2) full-size px in the target's order;
+    at_s: when the frame was taken, on a clock that only goes forward. kind: the whole declared board, a part
+    of it, none, or another one. pose: `T_cam_board`; image_points: (n, 2) full-size px in the target's order;
     both None unless present. edge_width_px: 10–90 % width of its edges, full-size px; brightness: mean grey
     level of its bright squares, 0…255; None where not measured. sequence: the frame's number; a capture asks
     for the frame by it.

@@ -88,6 +88,7 @@ def start_session(
 
 def step(state: SessionState, action: Action, settings: GuidanceSettings) -> Step:
     """Return the state after an action and what is to be done about it."""
+    result: Step = (state, ())
     match action:
         case Frame(observation):
             result = _see(state, observation, settings)
@@ -97,8 +98,8 @@ def step(state: SessionState, action: Action, settings: GuidanceSettings) -> Ste
             result = _accept(state, pose_index)
         case CaptureRefused(pose_index, reason):
             result = _refuse(state, pose_index, reason)
-        case Undo():
-            result = _take_back(state, state.order[-1]) if state.order else (state, ())
+        case Undo() if state.order:
+            result = _take_back(state, state.order[-1])
         case Retake(pose_index):
             result = _take_back(state, pose_index)
         case SetAutomatic(automatic):

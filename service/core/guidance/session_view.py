@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from service.core.guidance.auto_capture import Obstacle, dwell_share
 from service.core.guidance.comparison import PoseDifference, match_share
 from service.core.guidance.hints import Hint, ShownHint, coarse_amount
-from service.core.guidance.observation import BoardKind
 from service.core.guidance.session import GuidanceSettings, SessionState
 from service.core.vision.camera import project
+from service.core.vision.live_detection import BoardKind
 from service.core.vision.transforms import Array
 
 OBSTACLE_HINTS = {
