@@ -19,6 +19,7 @@ from service.api.rest import (
     runs,
     skus,
     stations,
+    statistics,
     targets,
     vehicles,
 )
@@ -48,7 +49,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     install_problem_handlers(app)
     app.add_middleware(Guard)
     api = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS, max_body_size=MAX_JSON_BYTES)
-    for resource in (runs, results, vehicles, skus, pose_sets, jobs, targets, stations, keys):
+    for resource in (runs, results, vehicles, skus, pose_sets, jobs, targets, stations, statistics, keys):
         api.include_router(resource.router)
     app.include_router(api)
     images = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS, max_body_size=max_image_bytes)

@@ -38,6 +38,7 @@ TAGS = [
     {"name": "Jobs", "description": "Work in the background."},
     {"name": "Targets", "description": "The physical boards."},
     {"name": "Stations", "description": "The calibration places of the line."},
+    {"name": "Statistics", "description": "Yield of the last days, and what the stations do now."},
     {"name": "API keys", "description": "Who may ask for what."},
     {"name": "Health", "description": "For the plant's monitoring; no key needed."},
 ]

@@ -19,10 +19,11 @@ from service.storage.models import JobRow, PoseSetRow, SkuRevisionRow, SkuRow
 from service.storage.words import Publication
 from service.usecases.audit import record
 from service.usecases.observation import outer_corners
+from service.usecases.paging import PageRequest, Part, page_of
 from service.usecases.planning import PLAN_POSE_SET, PlanRequest, describe_import
 from service.usecases.publication import publish
 from service.usecases.sku_document import Revision, SkuDocument
-from service.usecases.skus import SkuReference, get_revision
+from service.usecases.skus import SkuReference, get_revision, read_sku
 
 JsonObject = dict[str, Any]
 Triple = tuple[float, float, float]
@@ -48,6 +49,19 @@ class PoseSetView:
     prediction: JsonObject | None
     provenance: JsonObject
     job_id: UUID | None
+    created_at: datetime
+    published_at: datetime | None
+
+
+@dataclass(frozen=True)
+class PoseSetSummary:
+    """A pose set in a list: without its poses."""
+
+    id: UUID
+    sku: SkuReference
+    state: Publication
+    pose_count: int
+    prediction: JsonObject | None
     created_at: datetime
     published_at: datetime | None
 
@@ -101,6 +115,28 @@ def import_pose_set(
 def read_pose_set(session: Session, pose_set_id: UUID) -> PoseSetView:
     """Return a pose set; raises NotFound."""
     return _view(session, _get(session, pose_set_id))
+
+
+def list_pose_sets(session: Session, code: str, page: PageRequest) -> Part[PoseSetSummary]:
+    """Return a part of the pose sets of all revisions of a SKU, newest first; raises NotFound."""
+    numbers = {row.id: row.number for row in read_sku(session, code).revisions}
+    query = select(PoseSetRow).where(PoseSetRow.sku_revision_id.in_(numbers))
+    part = page_of(session, query, PoseSetRow, page)
+    return Part(
+        [
+            PoseSetSummary(
+                id=row.id,
+                sku=SkuReference(code, numbers[row.sku_revision_id]),
+                state=row.state,
+                pose_count=len(row.poses),
+                prediction=row.prediction or None,
+                created_at=row.created_at,
+                published_at=row.published_at,
+            )
+            for row in part.items
+        ],
+        part.next_cursor,
+    )
 
 
 def publish_pose_set(session: Session, pose_set_id: UUID, who: str, now: datetime) -> PoseSetView:

@@ -25,6 +25,7 @@ from service.usecases.audit import record
 from service.usecases.capture_views import CaptureView, view_captures
 from service.usecases.paging import PageRequest, Part, page_of
 from service.usecases.results import ResultView, find_result
+from service.usecases.run_filter import RunFilter
 from service.usecases.skus import SkuReference, get_published_revision
 from service.usecases.stations import get_station
 
@@ -113,10 +114,9 @@ def read_run(session: Session, run_id: UUID) -> RunView:
     return view_runs(session, [row], captures=views, result=find_result(session, run_id))[0]
 
 
-def list_runs(session: Session, page: PageRequest, serial: str | None = None) -> Part[RunView]:
-    """Return a part of the runs, newest first, of one serial if given."""
-    query = select(RunRow) if serial is None else select(RunRow).where(RunRow.serial == serial)
-    part = page_of(session, query, RunRow, page)
+def list_runs(session: Session, page: PageRequest, wanted: RunFilter) -> Part[RunView]:
+    """Return a part of the runs that are wanted, newest first."""
+    part = page_of(session, wanted.narrow(select(RunRow)), RunRow, page)
     return Part(view_runs(session, part.items), part.next_cursor)
 
 

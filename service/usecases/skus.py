@@ -9,7 +9,8 @@ from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, RevisionNotPublished, ValidationFailed
-from service.storage.models import SkuRevisionRow, SkuRow
+from service.core.quality.limits import LIMIT_NAMES
+from service.storage.models import PoseSetRow, SkuRevisionRow, SkuRow
 from service.storage.words import Publication
 from service.usecases.audit import record
 from service.usecases.paging import PageRequest, Part, page_of
@@ -26,6 +27,14 @@ class SkuReference:
 
 
 @dataclass(frozen=True)
+class PublishedPoseSet:
+    """The pose set that new runs of a SKU follow, and how many poses it has."""
+
+    id: UUID
+    poses: int
+
+
+@dataclass(frozen=True)
 class SkuView:
     """A SKU with the numbers of its revisions that count, and the revisions themselves where asked for."""
 
@@ -34,8 +43,19 @@ class SkuView:
     name: str
     latest_revision: int
     published_revision: int | None
+    published_pose_set: PublishedPoseSet | None
     created_at: datetime
     revisions: Sequence[SkuRevisionRow]
+
+
+@dataclass(frozen=True)
+class LimitView:
+    """A limit in force; from `marginal_share` of it on a value is MARGINAL."""
+
+    name: str
+    value: float
+    marginal_share: float
+    is_default: bool
 
 
 def create_sku(session: Session, document: SkuDocument, who: str, now: datetime) -> SkuView:
@@ -45,21 +65,19 @@ def create_sku(session: Session, document: SkuDocument, who: str, now: datetime)
     session.flush()
     record(session, now, who, "sku.create", f"sku:{row.code}", name=row.name)
     _add_revision(session, row, document, 1, who=who, now=now)
-    return _view(row, _revisions(session, [row.id]))
+    return _views(session, [row])[0]
 
 
 def list_skus(session: Session, page: PageRequest) -> Part[SkuView]:
     """Return a part of the SKUs, newest first."""
     part = page_of(session, select(SkuRow), SkuRow, page)
-    revisions = _revisions(session, [row.id for row in part.items])
-    views = [_view(row, [r for r in revisions if r.sku_id == row.id]) for row in part.items]
-    return Part(views, part.next_cursor)
+    return Part(_views(session, part.items), part.next_cursor)
 
 
 def read_sku(session: Session, code: str) -> SkuView:
     """Return a SKU with its revisions, newest first; raises NotFound."""
     row = get_sku(session, code)
-    return _view(row, _revisions(session, [row.id]))
+    return _views(session, [row])[0]
 
 
 def get_sku(session: Session, code: str) -> SkuRow:
@@ -101,6 +119,16 @@ def get_revision(session: Session, code: str, number: int) -> SkuRevisionRow:
             f"SKU '{code}' has no revision {number}. List its revisions.", sku=code, revision=number
         )
     return row
+
+
+def read_limits(session: Session, code: str, number: int) -> list[LimitView]:
+    """Return the limits by which runs of a revision are judged; raises NotFound."""
+    document = SkuDocument.model_validate(get_revision(session, code, number).document)
+    limits = document.to_revision().limits
+    own = {*document.limits, *(document.limits.get("marginal") or {})}
+    return [
+        LimitView(name, getattr(limits, name), limits.share(name), name not in own) for name in LIMIT_NAMES
+    ]
 
 
 def get_published_revision(session: Session, code: str) -> SkuRevisionRow:
@@ -150,9 +178,27 @@ def _revisions(session: Session, sku_ids: list[UUID]) -> list[SkuRevisionRow]:
     return list(session.scalars(query.order_by(SkuRevisionRow.number.desc())))
 
 
-def _view(row: SkuRow, revisions: Sequence[SkuRevisionRow]) -> SkuView:
-    published = [revision.number for revision in revisions if revision.state is Publication.PUBLISHED]
-    latest = max(revision.number for revision in revisions)
-    return SkuView(
-        row.id, row.code, row.name, latest, max(published, default=None), row.created_at, revisions
+def _views(session: Session, rows: Sequence[SkuRow]) -> list[SkuView]:
+    revisions = _revisions(session, [row.id for row in rows])
+    published = {row.sku_id: row for row in revisions if row.state is Publication.PUBLISHED}
+    pose_sets = _published_pose_sets(session, [row.id for row in published.values()])
+    return [
+        SkuView(
+            id=row.id,
+            code=row.code,
+            name=row.name,
+            latest_revision=max(revision.number for revision in revisions if revision.sku_id == row.id),
+            published_revision=published[row.id].number if row.id in published else None,
+            published_pose_set=pose_sets.get(published[row.id].id) if row.id in published else None,
+            created_at=row.created_at,
+            revisions=[revision for revision in revisions if revision.sku_id == row.id],
+        )
+        for row in rows
+    ]
+
+
+def _published_pose_sets(session: Session, revision_ids: Sequence[UUID]) -> dict[UUID, PublishedPoseSet]:
+    query = select(PoseSetRow).where(
+        PoseSetRow.sku_revision_id.in_(revision_ids), PoseSetRow.state == Publication.PUBLISHED
     )
+    return {row.sku_revision_id: PublishedPoseSet(row.id, len(row.poses)) for row in session.scalars(query)}

@@ -11,9 +11,9 @@ from fastapi import APIRouter, Response
 from pydantic import ConfigDict, Field, model_validator
 
 from service.api.auth import Engineer, Viewer
-from service.api.dependencies import Db, Now, Of, ReadDb
+from service.api.dependencies import Db, Now, Of, PageOf, ReadDb
 from service.api.rest.jobs import Job
-from service.api.shapes import Answer, Id, Request, RevisionNumber, SkuCode
+from service.api.shapes import Answer, Id, Page, Request, RevisionNumber, SkuCode
 from service.core.planning.scoring import Objective
 from service.storage.words import Publication
 from service.usecases import pose_sets
@@ -114,6 +114,18 @@ class PoseSet(Answer):
     published_at: datetime | None
 
 
+class PoseSetSummary(Answer):
+    """A pose set in a list: without its poses."""
+
+    id: UUID
+    sku: PoseSetSku
+    state: Publication
+    pose_count: int = Field(description="How many poses; 0 as long as the job plans.")
+    prediction: Prediction | None = Field(description="What the set promises; null while it is planned.")
+    created_at: datetime
+    published_at: datetime | None
+
+
 class PoseSetRequested(Answer):
     """A pose set, and the job that plans it (null for an imported one)."""
 
@@ -145,6 +157,12 @@ def create_pose_set(
         plan = PlanRequest(body.seed, body.candidates, body.objective)
         made = pose_sets.request_pose_set(db, of.jobs, code, number, plan, who=who, now=now)
     return PoseSetRequested.model_validate(made)
+
+
+@router.get("/skus/{code}/pose-sets", summary="List the pose sets of a SKU")
+def list_pose_sets(code: SkuCode, caller: Viewer, db: ReadDb, page: PageOf) -> Page[PoseSetSummary]:
+    """List the pose sets of all revisions of a camera variant, newest first."""
+    return Page[PoseSetSummary].model_validate(pose_sets.list_pose_sets(db, code, page))
 
 
 @router.get("/pose-sets/{pose_set_id}", summary="Read a pose set")

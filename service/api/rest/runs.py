@@ -1,10 +1,10 @@
 """Runs: one calibration of one camera of one vehicle, from opening to its verdict."""
 
-from datetime import datetime
+from datetime import date, datetime
 from typing import Annotated
 from uuid import UUID
 
-from fastapi import APIRouter, Query
+from fastapi import APIRouter, Depends, Query
 from fastapi.responses import JSONResponse
 from pydantic import ConfigDict, Field
 
@@ -17,9 +17,12 @@ from service.api.shapes import Answer, Id, Page, Request
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.usecases import finish, runs
+from service.usecases.run_filter import RunFilter
 from service.usecases.text import Code
 
 router = APIRouter(prefix="/runs", tags=["Runs"])
+
+DayOfRuns = Annotated[date, Field(ge=date(2000, 1, 1), le=date(2999, 12, 31))]
 
 
 class NewRun(Request):
@@ -94,6 +97,41 @@ class RunDetail(RunSummary):
     result: Result | None
 
 
+def run_filter(
+    *,
+    serial: Annotated[str | None, Query(max_length=64, description="Only of exactly this serial.")] = None,
+    sku: Annotated[Code | None, Query(description="Only of this SKU.")] = None,
+    station: Annotated[Code | None, Query(description="Only at this station.")] = None,
+    verdict: Annotated[Verdict | None, Query(description="Only with this verdict.")] = None,
+    failed: Annotated[
+        str | None, Query(max_length=64, description="Only where the measurement of this name failed.")
+    ] = None,
+    since: Annotated[DayOfRuns | None, Query(description="Only opened on this day or later, UTC.")] = None,
+    until: Annotated[DayOfRuns | None, Query(description="Only opened on this day or before, UTC.")] = None,
+    counted: Annotated[
+        bool, Query(description="Only what counts for yield: finished, production or retest.")
+    ] = False,
+    first: Annotated[
+        bool, Query(description="Only the first of each serial and SKU that counts for yield.")
+    ] = False,
+) -> RunFilter:
+    """Return which runs are asked for."""
+    return RunFilter(
+        serial=serial,
+        sku=sku,
+        station=station,
+        verdict=verdict,
+        failed=failed,
+        since=since,
+        until=until,
+        counted=counted,
+        first=first,
+    )
+
+
+Wanted = Annotated[RunFilter, Depends(run_filter)]
+
+
 @router.post("", status_code=201, summary="Open a run", response_model=RunDetail)
 def create_run(body: NewRun, caller: Mes, db: Db, now: Now, once: Once) -> JSONResponse:
     """Open a run on the SKU's published revision and its published pose set.
@@ -108,16 +146,9 @@ def create_run(body: NewRun, caller: Mes, db: Db, now: Now, once: Once) -> JSONR
 
 
 @router.get("", summary="List runs")
-def list_runs(
-    caller: Viewer,
-    db: ReadDb,
-    page: PageOf,
-    serial: Annotated[
-        str | None, Query(max_length=64, description="Only runs of exactly this serial.")
-    ] = None,
-) -> Page[RunSummary]:
-    """List runs, newest first."""
-    return Page[RunSummary].model_validate(runs.list_runs(db, page, serial))
+def list_runs(caller: Viewer, db: ReadDb, page: PageOf, wanted: Wanted) -> Page[RunSummary]:
+    """List the runs that meet all the filters, newest first."""
+    return Page[RunSummary].model_validate(runs.list_runs(db, page, wanted))
 
 
 @router.get("/{run_id}", summary="Read a run")

@@ -4,6 +4,7 @@ from datetime import datetime
 from uuid import UUID
 
 from fastapi import APIRouter
+from pydantic import Field
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
@@ -27,6 +28,28 @@ class SkuRevision(Answer):
     published_at: datetime | None
 
 
+class PublishedPoseSet(Answer):
+    """The pose set that new runs of a SKU follow."""
+
+    id: UUID
+    poses: int = Field(description="How many.")
+
+
+class Limit(Answer):
+    """A limit of a gate as it is in force."""
+
+    name: str = Field(description="Name of the limit, as in a SKU's document.")
+    value: float
+    marginal_share: float = Field(description="Share of the limit from which on a value is MARGINAL.")
+    is_default: bool = Field(description="Whether the revision leaves it as it is for the image size.")
+
+
+class RevisionLimits(Answer):
+    """All limits by which runs of a revision are judged."""
+
+    limits: list[Limit]
+
+
 class Sku(Answer):
     """A camera variant, with the numbers of its revisions that count."""
 
@@ -35,6 +58,7 @@ class Sku(Answer):
     name: str
     latest_revision: int
     published_revision: int | None
+    published_pose_set: PublishedPoseSet | None
     created_at: datetime
 
 
@@ -78,6 +102,12 @@ def list_revisions(code: SkuCode, caller: Viewer, db: ReadDb, page: PageOf) -> P
 def read_revision(code: SkuCode, number: RevisionNumber, caller: Viewer, db: ReadDb) -> SkuRevision:
     """Read one revision with its whole document."""
     return SkuRevision.model_validate(skus.get_revision(db, code, number))
+
+
+@router.get("/{code}/revisions/{number}/limits", summary="Read the limits of a revision")
+def read_limits(code: SkuCode, number: RevisionNumber, caller: Viewer, db: ReadDb) -> RevisionLimits:
+    """Read the limits by which runs of a revision are judged: its own ones, and the defaults for the rest."""
+    return RevisionLimits.model_validate({"limits": skus.read_limits(db, code, number)})
 
 
 @router.post("/{code}/revisions/{number}/publish", summary="Publish a revision")

@@ -118,6 +118,17 @@ export interface Job {
 /** Life of a job. */
 export type JobState = "queued" | "running" | "done" | "failed" | "cancelled";
 
+/** A limit of a gate as it is in force. */
+export interface Limit {
+  /** Name of the limit, as in a SKU's document. */
+  name: string;
+  value: number;
+  /** Share of the limit from which on a value is MARGINAL. */
+  marginal_share: number;
+  /** Whether the revision leaves it as it is for the image size. */
+  is_default: boolean;
+}
+
 /** Expected error of the mapping from rays to pixels, px, over the working zone and the valid region. */
 export interface Mapping {
   zone_mean_px: number | null;
@@ -198,6 +209,12 @@ export interface PageApiKey {
   next_cursor: string | null;
 }
 
+export interface PagePoseSetSummary {
+  items: PoseSetSummary[];
+  /** Give it as `cursor` to go on; null: this was the last part. */
+  next_cursor: string | null;
+}
+
 export interface PageRunSummary {
   items: RunSummary[];
   /** Give it as `cursor` to go on; null: this was the last part. */
@@ -267,6 +284,19 @@ export interface PoseSetRequested {
 export interface PoseSetSku {
   code: string;
   revision: number;
+}
+
+/** A pose set in a list: without its poses. */
+export interface PoseSetSummary {
+  id: string;
+  sku: PoseSetSku;
+  state: Publication;
+  /** How many poses; 0 as long as the job plans. */
+  pose_count: number;
+  /** What the set promises; null while it is planned. */
+  prediction: Prediction | null;
+  created_at: string;
+  published_at: string | null;
 }
 
 /** A pose of the board in the camera's frame (`T_cam_board`): rotation vector, rad, and translation, m. */
@@ -343,6 +373,13 @@ export interface Problem {
 /** Life of a SKU revision or a pose set; once published it never changes. */
 export type Publication = "draft" | "published" | "retired";
 
+/** The pose set that new runs of a SKU follow. */
+export interface PublishedPoseSet {
+  id: string;
+  /** How many. */
+  poses: number;
+}
+
 /** Why a run is made. Only production and retest count for yield. */
 export type Purpose = "production" | "retest" | "golden" | "study" | "trial" | "simulated";
 
@@ -385,6 +422,11 @@ export interface Result {
   agreement_px: number | null;
   versions: Record<string, string>;
   created_at: string;
+}
+
+/** All limits by which runs of a revision are judged. */
+export interface RevisionLimits {
+  limits: Limit[];
 }
 
 /** What an API key may do; operator < engineer < admin, the others stand beside them. */
@@ -458,6 +500,7 @@ export interface Sku {
   name: string;
   latest_revision: number;
   published_revision: number | null;
+  published_pose_set: PublishedPoseSet | null;
   created_at: string;
 }
 
@@ -468,6 +511,7 @@ export interface SkuDetail {
   name: string;
   latest_revision: number;
   published_revision: number | null;
+  published_pose_set: PublishedPoseSet | null;
   created_at: string;
   revisions: SkuRevision[];
 }
