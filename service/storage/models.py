@@ -157,6 +157,7 @@ class RunRow(Row):
         CheckConstraint("(state = 'finished') = (verdict IS NOT NULL)", name="finished_has_verdict"),
         Index(None, "serial", "created_at", "id"),
         Index(None, "created_at", "id"),
+        Index(None, "station_id", "state", "created_at", "id"),
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)

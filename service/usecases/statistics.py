@@ -24,12 +24,11 @@ from service.storage.models import (
     StationRow,
 )
 from service.usecases.paging import PageRequest, Part
-from service.usecases.run_filter import RunFilter, is_first_of_serial, start_of
+from service.usecases.run_filter import RunFilter, is_first_of_serial
 from service.usecases.runs import RunView, view_runs
 from service.usecases.stations import list_stations
 
 LONGEST_DAYS = 31
-STATION_DAYS = 30
 PASSED = (Verdict.PASS, Verdict.MARGINAL)
 
 
@@ -68,7 +67,7 @@ class YieldView:
 
 @dataclass(frozen=True)
 class StationStanding:
-    """A station with its newest open run and its newest finished one of the last 30 days."""
+    """A station with its newest open run and its newest finished one."""
 
     code: str
     name: str
@@ -86,12 +85,11 @@ def read_yield(
     return YieldView(since, until, _counts(session, wanted), _failed_gates(session, wanted))
 
 
-def list_station_standings(session: Session, now: datetime, page: PageRequest) -> Part[StationStanding]:
+def list_station_standings(session: Session, page: PageRequest) -> Part[StationStanding]:
     """Return a part of the stations, newest first, with what is done at each."""
     part = list_stations(session, page)
-    since = start_of(now.astimezone(UTC).date() - timedelta(days=STATION_DAYS))
-    opened = _newest(session, [row.id for row in part.items], RunState.OPEN, since)
-    finished = _newest(session, [row.id for row in part.items], RunState.FINISHED, since)
+    opened = _newest(session, [row.id for row in part.items], RunState.OPEN)
+    finished = _newest(session, [row.id for row in part.items], RunState.FINISHED)
     standings = [
         StationStanding(row.code, row.name, opened.get(row.code), finished.get(row.code))
         for row in part.items
@@ -146,18 +144,16 @@ def _failed_gates(session: Session, wanted: RunFilter) -> list[FailedGate]:
     return [FailedGate(*row) for row in session.execute(query.order_by(runs.desc(), MeasurementRow.name))]
 
 
-def _newest(
-    session: Session, station_ids: Sequence[UUID], state: RunState, since: datetime
-) -> dict[str, RunView]:
-    """Return the newest run of a state by the code of its station."""
-    rank = func.row_number().over(
-        partition_by=RunRow.station_id, order_by=(RunRow.created_at.desc(), RunRow.id.desc())
+def _newest(session: Session, station_ids: Sequence[UUID], state: RunState) -> dict[str, RunView]:
+    """Return the newest run of a state by the code of its station; one step in an index for each."""
+    newest = (
+        select(RunRow.id)
+        .where(RunRow.station_id == StationRow.id, RunRow.state == state)
+        .order_by(RunRow.created_at.desc(), RunRow.id.desc())
+        .limit(1)
+        .correlate(StationRow)
+        .scalar_subquery()
     )
-    ranked = (
-        select(RunRow.id, rank.label("rank"))
-        .where(RunRow.station_id.in_(station_ids), RunRow.state == state, RunRow.created_at >= since)
-        .subquery()
-    )
-    newest = select(RunRow).join(ranked, ranked.c.id == RunRow.id).where(ranked.c.rank == 1)
-    views = view_runs(session, session.scalars(newest).all())
+    found = session.scalars(select(newest).where(StationRow.id.in_(station_ids))).all()
+    views = view_runs(session, session.scalars(select(RunRow).where(RunRow.id.in_(found))).all())
     return {view.station: view for view in views if view.station is not None}

@@ -179,14 +179,15 @@ def test_a_station_shows_its_newest_open_run_and_its_newest_verdict(database: Da
         line.run("V2", FAIL, at=START - timedelta(hours=2))
         line.run("V3", None, at=START - timedelta(hours=1))
         line.run("V4", None)
-        line.run("V5", None, station="cal2", at=START - 31 * DAY)
+        line.run("V5", None, station="cal2", at=START - 400 * DAY)
+        line.run("V6", None, station=None)
         line.station("cal3")
 
     with database.read() as session:
-        part = list_station_standings(session, START, PageRequest())
+        part = list_station_standings(session, PageRequest())
 
     shown = {
         one.code: (one.open_run and one.open_run.serial, one.last_run and one.last_run.serial)
         for one in part.items
     }
-    assert shown == {"cal1": ("V4", "V2"), "cal2": (None, None), "cal3": (None, None)}
+    assert shown == {"cal1": ("V4", "V2"), "cal2": ("V5", None), "cal3": (None, None)}

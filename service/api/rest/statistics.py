@@ -50,7 +50,7 @@ class Yield(Answer):
 
 
 class StationStanding(Answer):
-    """A station with its newest open run and its newest finished one of the last 30 days."""
+    """A station with its newest open run and its newest finished one."""
 
     code: str
     name: str
@@ -78,6 +78,6 @@ def read_yield(
 
 
 @router.get("/stations", summary="List what the stations do")
-def list_station_standings(caller: Viewer, db: ReadDb, now: Now, page: PageOf) -> Page[StationStanding]:
-    """List the stations, newest first, each with its open run and its last verdict, up to 30 days old."""
-    return Page[StationStanding].model_validate(statistics.list_station_standings(db, now, page))
+def list_station_standings(caller: Viewer, db: ReadDb, page: PageOf) -> Page[StationStanding]:
+    """List the stations, newest first, each with its open run and its last verdict."""
+    return Page[StationStanding].model_validate(statistics.list_station_standings(db, page))

@@ -574,7 +574,7 @@ export interface Station {
   created_at: string;
 }
 
-/** A station with its newest open run and its newest finished one of the last 30 days. */
+/** A station with its newest open run and its newest finished one. */
 export interface StationStanding {
   code: string;
   name: string;
