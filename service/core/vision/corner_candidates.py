@@ -50,7 +50,7 @@ def find_corners(image: NDArray[np.uint8], limit: int = 1000) -> Corners:
         passed, corners = inspect_rings(blurred, points, np.full(len(points), radius))
         found.append(corners)
         points = points[~passed]
-    return _without_twins(_joined(found))
+    return without_twins(join_corners(found))
 
 
 def saddle_response(blurred: FloatImage) -> FloatImage:
@@ -124,7 +124,8 @@ def _slots(centred: Array, changes: NDArray[np.bool_]) -> tuple[Array, NDArray[n
     return np.stack([first, second, first + np.pi, second + np.pi], axis=-1), good
 
 
-def _joined(parts: list[Corners]) -> Corners:
+def join_corners(parts: list[Corners]) -> Corners:
+    """Return the candidates of all parts."""
     return Corners(
         np.concatenate([part.points for part in parts]),
         np.concatenate([part.slots for part in parts]),
@@ -132,8 +133,8 @@ def _joined(parts: list[Corners]) -> Corners:
     )
 
 
-def _without_twins(corners: Corners, distance_px: float = 2.0) -> Corners:
-    """Drop candidates that ran to the same saddle point as one before them."""
+def without_twins(corners: Corners, distance_px: float = 2.0) -> Corners:
+    """Return the candidates without those that ran to the same saddle point as one before them."""
     if len(corners) < 2:
         return corners
     cell = np.round(corners.points / distance_px).astype(np.int64)

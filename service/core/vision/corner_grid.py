@@ -51,11 +51,7 @@ def link_corners(corners: Corners) -> NDArray[np.int64]:
     nearest = cKDTree(corners.points).query(corners.points, k=min(NEIGHBOURS + 1, n))
     near = np.asarray(nearest[1], dtype=np.int64)[:, 1:]
     vector = corners.points[near] - corners.points[:, None]
-    direction = np.stack([np.cos(corners.slots), np.sin(corners.slots)], axis=-1)
-    link = np.full((n, 4), -1)
-    back = np.full((n, 4), -1)
-    for slot in range(4):
-        link[:, slot], back[:, slot] = _nearest_along(vector, near, direction, slot)
+    link, back = _nearest_along_slots(corners, near, vector)
     rows, slots = np.nonzero(link >= 0)
     ends = link[rows, slots]
     weak, strong = np.sort(corners.contrast[np.stack([rows, ends])], axis=0)
@@ -76,24 +72,32 @@ def _without_misfits(corners: Corners, link: NDArray[np.int64], back: NDArray[np
     return pruned
 
 
-def _nearest_along(
-    vector: Array, near: NDArray[np.int64], direction: Array, slot: int
+def _nearest_along_slots(
+    corners: Corners, near: NDArray[np.int64], vector: Array
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the nearest corner (n,) along a slot, and the slot (n,) by which it looks back; -1 for none."""
-    own = direction[:, None, slot]
-    along = np.sum(vector * own, axis=-1)
-    sideways = np.abs(vector[..., 0] * own[..., 1] - vector[..., 1] * own[..., 0])
-    # Across an edge the colours change places, so the neighbour looks back by a slot of the other line.
-    other = np.array([1, 3]) if slot % 2 == 0 else np.array([0, 2])
-    facing = -np.einsum("nkse,nke->nks", direction[near][:, :, other], np.broadcast_to(own, vector.shape))
-    which = np.argmax(facing, axis=-1)
-    best = np.take_along_axis(facing, which[..., None], axis=-1)[..., 0]
-    fits = (along > 0) & (sideways < SIDEWAYS * along) & (best > ALIGNED)
-    cost = np.where(fits, along + 2.0 * sideways, np.inf)
-    choice = np.argmin(cost, axis=1)
-    rows = np.arange(len(choice))
-    found = np.isfinite(cost[rows, choice])
-    return np.where(found, near[rows, choice], -1), np.where(found, other[which[rows, choice]], -1)
+    """Return the nearest corner (n, 4) along each slot, and the slot (n, 4) by which it looks back; -1: none.
+
+    near: (n, k) corners nearby; vector: (n, k, 2) px to them.
+    """
+    link = np.full((len(near), 4), -1)
+    back = np.full((len(near), 4), -1)
+    x, y = np.cos(corners.slots[:, :2]), np.sin(corners.slots[:, :2])
+    rows = np.arange(len(near))
+    for line in (0, 1):
+        own_x, own_y = x[:, line, None], y[:, line, None]
+        ahead = vector[..., 0] * own_x + vector[..., 1] * own_y
+        sideways = np.abs(vector[..., 0] * own_y - vector[..., 1] * own_x)
+        # Across an edge the colours change places, so the neighbour looks back by a slot of the other line.
+        likeness = x[near, 1 - line] * own_x + y[near, 1 - line] * own_y
+        fits = (sideways < SIDEWAYS * np.abs(ahead)) & (np.abs(likeness) > ALIGNED)
+        cost = np.where(fits, np.abs(ahead) + 2.0 * sideways, np.inf)
+        for slot, sign in ((line, 1.0), (line + 2, -1.0)):
+            choice = np.argmin(np.where(sign * ahead > 0, cost, np.inf), axis=1)
+            found = np.isfinite(cost[rows, choice]) & (sign * ahead[rows, choice] > 0)
+            turned = sign * likeness[rows, choice] > 0
+            link[:, slot] = np.where(found, near[rows, choice], -1)
+            back[:, slot] = np.where(found, np.where(turned, 3 - line, 1 - line), -1)
+    return link, back
 
 
 def number_corners(corners: Corners, link: NDArray[np.int64]) -> list[CornerGrid]:

@@ -5,6 +5,7 @@ which tells how large the board really is. What linking caught by chance is thro
 Not here: whether the grid is the declared board (`board`).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import cv2
@@ -19,6 +20,9 @@ from service.core.vision.transforms import Array
 
 FARTHEST = 0.35  # of a square, from the predicted to the proven corner
 LARGEST_ANGLE_SINE = 0.5  # between an edge of the corner and the side of its square
+
+
+Refiner = Callable[[FloatImage, Array, NDArray[np.int64]], tuple[Array, NDArray[np.bool_]]]
 
 
 @dataclass(frozen=True)
@@ -37,17 +41,27 @@ class Steps:
         return height
 
 
-def complete_grid(blurred: FloatImage, grid: CornerGrid, rounds: int) -> CornerGrid:
+def refine_with_care(
+    blurred: FloatImage, points: Array, radii: NDArray[np.int64]
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Return saddle points (n, 2) near the given ones and which are proven, for a capture."""
+    return refine_saddles(blurred, points, radii, tolerance_px=0.02)
+
+
+def complete_grid(
+    blurred: FloatImage, grid: CornerGrid, rounds: int, refine: Refiner = refine_with_care
+) -> CornerGrid:
     """Return the grid with proven corners only, filled and grown by up to `rounds` lines on each side."""
     grid = keep_squares(grid)
     if not grid.points.size:
         return grid
-    grid = keep_squares(_prove(blurred, grid, grid.points))
+    grid = keep_squares(_prove(blurred, grid, grid.points, refine))
     for _ in range(rounds):
         if not grid.points.size:
             break
         padded = replace(grid, points=np.pad(grid.points, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan))
-        grown = _prove(blurred, padded, np.where(padded.known[..., None], np.nan, predict(padded.points)))
+        guesses = np.where(padded.known[..., None], np.nan, predict(padded.points))
+        grown = _prove(blurred, padded, guesses, refine)
         if grown.known.sum() == grid.known.sum():
             break
         grid = trim(grown)
@@ -89,6 +103,8 @@ def _local_mean(field: Array, first: tuple[int, int], anchor: tuple[int, int]) -
         sums = [_box_sum(plane, size, spot) for plane in (filled[..., 0], filled[..., 1], weight)]
         total, count = np.stack(sums[:2], axis=-1), sums[2][..., None]
         result = np.where(np.isnan(result) & (count > 0.5), total / np.maximum(count, 1.0), result)
+        if not np.isnan(result).any():
+            break
     return result
 
 
@@ -110,14 +126,14 @@ def _shifted(points: Array, axis: int, places: int) -> Array:
     return result
 
 
-def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array) -> CornerGrid:
+def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array, refine: Refiner) -> CornerGrid:
     """Return the grid with the guessed corners that the image confirms; one that fails is unknown."""
     steps = measure_steps(grid.points)
     row, column = np.nonzero(~np.isnan(guesses[..., 0]) & ~np.isnan(steps.square_px))
     points = np.where(np.isnan(guesses), grid.points, np.nan)
     square = steps.square_px[row, column]
     radii = np.clip(np.rint(0.3 * square), 2, 7).astype(np.int64)
-    near, proven = refine_saddles(blurred, guesses[row, column], radii, tolerance_px=0.02)
+    near, proven = refine(blurred, guesses[row, column], radii)
     proven &= np.linalg.norm(near - guesses[row, column], axis=1) < FARTHEST * square
     passed, corners = inspect_rings(blurred, near, np.clip(0.42 * square, 2.2, 10.0))
     dark = (row + column + grid.phase)[passed] % 2 == 0

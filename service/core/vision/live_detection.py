@@ -13,17 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.board import is_larger, is_whole, order_corners
-from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.detection import check_grey_image
 from service.core.vision.grid_growth import complete_grid
-from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines
-from service.core.vision.sampling import smooth
+from service.core.vision.live_corners import LiveWorkspace, find_live_corners, refine_on_pixels, smooth_frame
+from service.core.vision.live_look import measure_look
+from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
+from service.core.vision.saddle import refine_saddles
+from service.core.vision.sampling import FloatImage
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
-CANDIDATES = 400
-ROUNDS = 2
+LIVE_SCALE = 2  # full-size pixels per pixel in which a live frame is looked at
+GRIDS = 2  # linked grids that are looked into, the one with most contrast first
+ROUNDS = 1  # of growth, by a line on each side
+DISC_PX = 2
+NO_GRID = CornerGrid(np.zeros((0, 0, 2)), 0)
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
 
 BoardKind = Literal["present", "partial", "absent", "wrong"]
@@ -48,10 +53,6 @@ class LiveDetection:
     brightness: float
 
 
-class LiveWorkspace:
-    """Buffers that the detector of one stream uses again from frame to frame; not for two threads at once."""
-
-
 def detect_live(
     image: NDArray[np.uint8], target: Chessboard, workspace: LiveWorkspace | None = None, *, scale: int = 1
 ) -> LiveDetection:
@@ -62,18 +63,39 @@ def detect_live(
     Raises Unprocessable when the array is no grey image.
     """
     image = check_grey_image(image)
-    half = image if scale == 2 else cv2.resize(image, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
-    corners = find_corners(np.asarray(half, dtype=np.uint8), CANDIDATES)
-    grids = number_corners(corners, link_corners(corners))
-    brightness = float(half.mean())
-    if not grids:
-        return LiveDetection("absent", None, 0, None, brightness)
-    grid = whole_lines(complete_grid(smooth(np.asarray(half, dtype=np.uint8), 1.1), grids[0], ROUNDS))
+    workspace = LiveWorkspace() if workspace is None else workspace
+    half = image if scale == LIVE_SCALE else halve(image)
+    blurred = smooth_frame(half, workspace)
+    grid = _find_grid(blurred, target, workspace)
     seen = int(grid.known.sum())
-    if is_whole(grid, target):
-        points = order_corners(grid, target)[0].reshape(-1, 2) * 2.0 + 0.5
-        return LiveDetection("present", points, seen, None, brightness)
-    return LiveDetection(_kind_of_rest(grid, seen, target), None, seen, None, brightness)
+    if not is_whole(grid, target):
+        return LiveDetection(_kind_of_rest(grid, seen, target), None, seen, None, float(cv2.mean(half)[0]))
+    corners, dark_first = order_corners(grid, target)
+    look = measure_look(half, corners, dark_first)
+    refined, _ = refine_saddles(blurred, corners.reshape(-1, 2), np.full(seen, DISC_PX), iterations=2)
+    points = refined * LIVE_SCALE + 0.5 * (LIVE_SCALE - 1)
+    return LiveDetection("present", points, seen, look.edge_width_px * LIVE_SCALE, look.brightness)
+
+
+def halve(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Return the means of 2x2 pixels of an image (h, w)."""
+    height, width = (size // 2 * 2 for size in image.shape)
+    half = cv2.resize(image[:height, :width], (width // 2, height // 2), interpolation=cv2.INTER_AREA)
+    return np.asarray(half, dtype=np.uint8)
+
+
+def _find_grid(blurred: FloatImage, target: Chessboard, workspace: LiveWorkspace) -> CornerGrid:
+    """Return the grid that is most likely the target, in half-size px; an empty one where there is none."""
+    corners = find_live_corners(blurred, workspace)
+    best = NO_GRID
+    for grid in number_corners(corners, link_corners(corners))[:GRIDS]:
+        lines = whole_lines(complete_grid(blurred, grid, ROUNDS, refine_on_pixels))
+        if is_larger(lines, target):
+            lines = without_rims(blurred, lines)
+        if is_whole(lines, target):
+            return lines
+        best = max(best, lines, key=lambda grid: int(grid.known.sum()))
+    return best
 
 
 def _kind_of_rest(grid: CornerGrid, seen: int, target: Chessboard) -> BoardKind:

@@ -63,9 +63,14 @@ def _refine_group(
 
 def _saddle_step(blurred: FloatImage, points: Array, radius: int) -> Array:
     """Steps (n, 2) px to the stationary points of the fitted surfaces; inf where the surface is no saddle."""
-    offsets, fit = _disc_fit(radius)
+    offsets, fit = disc_fit(radius)
     values = sample_bilinear(blurred, points[:, :1] + offsets[:, 0], points[:, 1:] + offsets[:, 1])
-    xx, xy, yy, x, y = (values @ fit.T).T
+    return saddle_of(values @ fit.T)
+
+
+def saddle_of(surface: Array) -> Array:
+    """Steps (n, 2) from the middle to the saddle of surfaces (n, 5) xx, xy, yy, x, y; inf if it is none."""
+    xx, xy, yy, x, y = surface.T
     determinant = 4.0 * xx * yy - xy * xy
     saddle = determinant < -1e-12
     safe = np.where(saddle, determinant, -1.0)
@@ -74,7 +79,7 @@ def _saddle_step(blurred: FloatImage, points: Array, radius: int) -> Array:
 
 
 @lru_cache(maxsize=32)
-def _disc_fit(radius: int) -> tuple[Array, Array]:
+def disc_fit(radius: int) -> tuple[Array, Array]:
     """Offsets (k, 2) of a disc and the matrix (5, k) that gives xx, xy, yy, x, y of its fitted surface."""
     y, x = np.mgrid[-radius : radius + 1, -radius : radius + 1].astype(np.float64)
     disc = x * x + y * y <= (radius + 0.5) ** 2

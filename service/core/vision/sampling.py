@@ -14,7 +14,7 @@ def smooth(image: NDArray[np.uint8] | FloatImage, sigma_px: float) -> FloatImage
     return np.asarray(cv2.GaussianBlur(image.astype(np.float32), (0, 0), sigma_px), dtype=np.float32)
 
 
-def sample_bilinear(image: FloatImage, x: Array, y: Array) -> Array:
+def sample_bilinear(image: FloatImage | NDArray[np.uint8], x: Array, y: Array) -> Array:
     """Return grey values (...) of an image (h, w) at x, y (...) px; those outside are moved to the border.
 
     Written out because cv2.remap rounds positions to 1/32 px, which is as much as the corner error allowed.

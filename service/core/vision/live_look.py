@@ -1,0 +1,51 @@
+"""How bright and how sharp a board looks in a live frame: estimates from a few hundred samples.
+
+Not here: what is measured on a capture (`sharpness`, `light`).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from service.core.vision.sampling import sample_bilinear
+from service.core.vision.transforms import Array
+
+REACH = 0.4  # of the square on either side of an edge, where it is over
+SLOPE_TO_WIDTH = 1.022  # of a Gaussian edge: 10–90 % width, times its steepest slope, over its height
+OWN_WIDTH_PX = 1.38  # that a perfectly sharp edge seems to have, by pixels and by sampling between them
+
+
+@dataclass(frozen=True)
+class Look:
+    """edge_width_px: 10–90 % width of the edges; brightness: grey level of the bright squares."""
+
+    edge_width_px: float
+    brightness: float
+
+
+def measure_look(image: NDArray[np.uint8], corners: Array, dark_first: bool) -> Look:
+    """Return how a board with corners (rows, columns, 2) px looks in an image (h, w)."""
+    rows, columns = corners.shape[:2]
+    middle = 0.25 * (corners[:-1, :-1] + corners[1:, :-1] + corners[:-1, 1:] + corners[1:, 1:])
+    levels = sample_bilinear(image, middle[..., 0], middle[..., 1])
+    row, column = np.indices((rows - 1, columns - 1))
+    bright = (row + column) % 2 == dark_first
+    widths = np.concatenate([_edge_widths(image, corners), _edge_widths(image, np.swapaxes(corners, 0, 1))])
+    width_sq = float(np.median(widths)) ** 2 - OWN_WIDTH_PX**2
+    return Look(float(np.sqrt(max(width_sq, 0.0))), float(levels[bright].mean()))
+
+
+def _edge_widths(image: NDArray[np.uint8], corners: Array) -> Array:
+    """Return the 10–90 % widths (n,) px of the edges along the inner rows, by their slope in the middle."""
+    start, end = corners[1:-1, :-1], corners[1:-1, 1:]
+    along = end - start
+    normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    normal /= np.maximum(np.linalg.norm(along, axis=-1, keepdims=True), 1e-9)
+    reach = REACH * np.abs(np.sum((corners[2:, :-1] - start) * normal, axis=-1))
+    half = np.full(reach.shape, 0.5)
+    offsets = np.stack([-reach, -half, half, reach], axis=-1)
+    spots = 0.5 * (start + end)[..., None, :] + offsets[..., None] * normal[..., None, :]
+    values = sample_bilinear(image, spots[..., 0], spots[..., 1])
+    height, slope = np.abs(values[..., 3] - values[..., 0]), np.abs(values[..., 2] - values[..., 1])
+    return np.asarray(SLOPE_TO_WIDTH * height / np.maximum(slope, 1e-3), dtype=np.float64).ravel()
