@@ -17,11 +17,16 @@ from service.adapters.clock_system import SystemClock
 from service.adapters.jobs_threads import ThreadJobs
 from service.api.application import create_api
 from service.api.dependencies import Services
-from service.ports import Clock
+from service.api.ws.desk import Desks
+from service.api.ws.drivers import Pace
+from service.api.ws.guidance import Guidance
+from service.ports import Clock, FrameSourceMaker
 from service.settings import Settings
+from service.simulator.virtual_station import source_of_serial
 from service.storage.database import Database
 from service.storage.migration import check_at_head, upgrade
 from service.usecases.access import create_first_key
+from service.usecases.guide import Plant
 from service.usecases.planning import PLAN_POSE_SET, plan_pose_set_job
 
 # A request's transaction outlasts the thread that began it: its commit needs one again. If all threads could
@@ -31,8 +36,11 @@ MOST_REQUESTS = 1000
 log = logging.getLogger(__name__)
 
 
-def create_app(settings: Settings) -> FastAPI:
-    """Return the application of these settings; it opens what it needs when it is started."""
+def create_app(settings: Settings, make_source: FrameSourceMaker = source_of_serial) -> FastAPI:
+    """Return the application of these settings; it opens what it needs when it is started.
+
+    make_source: what virtual stations see.
+    """
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -41,7 +49,9 @@ def create_app(settings: Settings) -> FastAPI:
         clock = SystemClock()
         jobs = create_jobs(settings, database, clock)
         try:
-            app.state.services = await to_thread.run_sync(create_services, settings, database, jobs, clock)
+            services = await to_thread.run_sync(create_services, settings, database, jobs, clock)
+            app.state.services = services
+            app.state.guidance = create_guidance(settings, services, make_source)
             announce_first_key(database, clock, settings.data_dir)
             if settings.jobs.in_service:
                 jobs.start()
@@ -102,6 +112,17 @@ def create_services(settings: Settings, database: Database, jobs: ThreadJobs, cl
         max_image_pixels=settings.max_image_megapixels * 1_000_000,
         checks=checks,
     )
+
+
+def create_guidance(settings: Settings, services: Services, make_source: FrameSourceMaker) -> Guidance:
+    """Return what the guidance socket uses."""
+    plant = Plant(services.database, services.blobs, services.clock, services.max_image_pixels)
+    return Guidance(plant, Desks(plant), make_source, Pace(speed=settings.virtual_speed))
+
+
+def largest_socket_message(settings: Settings) -> int:
+    """Return how many bytes a server must let through in one message, so that the service can refuse it."""
+    return settings.max_image_megapixels * 1_000_000 + 1_000_000
 
 
 def announce_first_key(database: Database, clock: Clock, data_dir: Path) -> None:

@@ -22,7 +22,7 @@ from service import __version__
 from service.adapters.clock_system import SystemClock
 from service.api.problems import problem_body, status_of
 from service.api.schemas import write_schemas
-from service.app import MOST_REQUESTS, create_app, open_database
+from service.app import MOST_REQUESTS, create_app, largest_socket_message, open_database
 from service.core.errors import BadRequest, ServiceError
 from service.core.planning.document import pose_set_to_dict
 from service.core.planning.plan import plan_pose_set
@@ -43,6 +43,8 @@ from service.usecases.text import Label
 
 WHO = "command line"
 KEYS_SHOWN = 1000
+# A kiosk that vanished without a word must free its station soon.
+SOCKET_PING_S = 5.0
 DONE, FAILED, BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
 
 
@@ -81,7 +83,9 @@ def build_parser() -> argparse.ArgumentParser:
     _add_serve(verbs.add_parser("serve", help="start the service"))
     _add_migrate(verbs.add_parser("migrate", help="bring the database to the tables of this version"))
     _add_keys(verbs.add_parser("keys", help="add, list and revoke API keys"))
-    schemas = verbs.add_parser("schemas", help="write docs/openapi.json and the web's types (in a checkout)")
+    schemas = verbs.add_parser(
+        "schemas", help="write the schemas in docs and the web's types (in a checkout)"
+    )
     schemas.set_defaults(run=_schemas)
     verbs.add_parser("version", help="print the version").set_defaults(run=_version, program=parser.prog)
     return parser
@@ -178,6 +182,11 @@ def _serve(arguments: argparse.Namespace) -> int:
         log_config=None,
         timeout_graceful_shutdown=round(settings.shutdown_grace_s),
         limit_concurrency=MOST_REQUESTS,
+        # Pictures do not shrink, and compressing them takes longer than sending them.
+        ws_per_message_deflate=False,
+        ws_max_size=largest_socket_message(settings),
+        ws_ping_interval=SOCKET_PING_S,
+        ws_ping_timeout=2 * SOCKET_PING_S,
     )
     return DONE
 

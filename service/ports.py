@@ -9,7 +9,13 @@ from datetime import datetime
 from typing import Any, Protocol
 from uuid import UUID
 
+import numpy as np
+from numpy.typing import NDArray
 from sqlalchemy.orm import Session
+
+from service.core.guidance.hints import ShownHint
+from service.core.vision.camera import Intrinsics
+from service.core.vision.target import Chessboard
 
 JsonObject = dict[str, Any]
 
@@ -86,3 +92,43 @@ class JobQueue(Protocol):
     def cancel(self, session: Session, job_id: UUID) -> None:
         """Cancel a job that is queued or running; raises JobNotFound, JobAlreadyEnded."""
         ...
+
+
+class LiveFrame(Protocol):
+    """One frame of a station's camera."""
+
+    @property
+    def sequence(self) -> int:
+        """Number of the frame, rising."""
+        ...
+
+    @property
+    def image(self) -> NDArray[np.uint8]:
+        """Grey pixels (h, w)."""
+        ...
+
+    @property
+    def scale(self) -> int:
+        """Full-size pixels per pixel of the frame: 1 or 2."""
+        ...
+
+    @property
+    def at_s(self) -> float:
+        """When it was taken, on a clock of the source that only goes forward."""
+        ...
+
+
+class FrameSource(Protocol):
+    """A camera within the service, pulled frame by frame; not for two threads at once."""
+
+    def next_frame(self, hints: tuple[ShownHint, ...], dt_s: float) -> LiveFrame:
+        """Return the frame that follows `dt_s` after the last one, with these hints on the screen."""
+        ...
+
+    def capture(self, sequence: int) -> NDArray[np.uint8]:
+        """Return the full picture (h, w) of the very moment that a frame shows; raises FrameForgotten."""
+        ...
+
+
+FrameSourceMaker = Callable[[Intrinsics, Chessboard, str], FrameSource]
+"""Makes the source of a run from the SKU's nominal camera, its target and the vehicle's serial."""

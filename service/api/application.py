@@ -24,6 +24,7 @@ from service.api.rest import (
     vehicles,
 )
 from service.api.security import Guard
+from service.api.ws import guidance
 
 Lifespan = Callable[[FastAPI], AbstractAsyncContextManager[None]]
 
@@ -56,6 +57,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     images.include_router(captures.router)
     app.include_router(images)
     app.include_router(health.router, responses=PROBLEM_ANSWERS)
+    app.include_router(guidance.router)
     app.include_router(docs_page.router)
     app.include_router(problem_pages.router)
     app.include_router(static.router)

@@ -41,14 +41,33 @@ class RequireRole:
         if key is None:
             raise NotAuthenticated("Send your API key in the header 'Authorization: Bearer dmscal_…'.")
         caller = identify(of.database, key.credentials, now)
-        if caller.role not in ROLES_FROM[self.role]:
-            raise NotAllowed(
-                f"Key '{caller.name}' has the role {caller.role}; this needs {self.role}. Ask for another "
-                "key.",
-                role=caller.role.value,
-                needed=self.role.value,
-            )
+        check_role(caller, self.role)
         return caller
+
+
+@dataclass(frozen=True)
+class SocketRoles:
+    """The dependency by which a socket says the least role of a kiosk and of a monitor.
+
+    A browser cannot send a header with a socket: the key comes in its first message.
+    """
+
+    kiosk: Role
+    monitor: Role
+
+    def __call__(self) -> "SocketRoles":
+        """Return itself, for the socket to check its clients with."""
+        return self
+
+
+def check_role(caller: Caller, needed: Role) -> None:
+    """Raise NotAllowed when a caller's role is too low."""
+    if caller.role not in ROLES_FROM[needed]:
+        raise NotAllowed(
+            f"Key '{caller.name}' has the role {caller.role}; this needs {needed}. Ask for another key.",
+            role=caller.role.value,
+            needed=needed.value,
+        )
 
 
 def nobody() -> None:
@@ -56,6 +75,7 @@ def nobody() -> None:
 
 
 PUBLIC = Depends(nobody)
+Guides = Annotated[SocketRoles, Depends(SocketRoles(kiosk=Role.OPERATOR, monitor=Role.VIEWER))]
 Viewer = Annotated[Caller, Depends(RequireRole(Role.VIEWER))]
 Mes = Annotated[Caller, Depends(RequireRole(Role.MES))]
 Operator = Annotated[Caller, Depends(RequireRole(Role.OPERATOR))]

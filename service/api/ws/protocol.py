@@ -299,11 +299,11 @@ class Ghost(Told):
 
 
 class BoardSeen(Told):
-    """The board in the picture; a partial board has corners but no outline or angles."""
+    """The whole board in the picture."""
 
-    outline: list[Point] | None
-    corners: list[Point]
-    angles: PoseAngles | None
+    outline: list[Point] = Field(description="The four outer corners, in order round the board.")
+    corners: list[Point] = Field(description="All corners, row by row.")
+    angles: PoseAngles | None = Field(description="Null where no pose explains the corners.")
 
 
 class Difference(Told):
@@ -327,7 +327,7 @@ class State(Told):
     at_ms: float
     run_id: UUID
     board: Literal["present", "partial", "absent", "wrong"]
-    seen: BoardSeen | None
+    seen: BoardSeen | None = Field(description="Null unless the whole declared board is present.")
     ghost: Ghost | None = Field(description="Null once all poses are captured.")
     difference: Difference | None
     hints: list[HintSaid] = Field(description="At most two, the more important one first.")

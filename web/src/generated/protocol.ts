@@ -20,10 +20,13 @@ export interface Ack {
   sequence: number;
 }
 
-/** The board in the picture; a partial board has corners but no outline or angles. */
+/** The whole board in the picture. */
 export interface BoardSeen {
-  outline: [number, number][] | null;
+  /** The four outer corners, in order round the board. */
+  outline: [number, number][];
+  /** All corners, row by row. */
   corners: [number, number][];
+  /** Null where no pose explains the corners. */
   angles: PoseAngles | null;
 }
 
@@ -240,6 +243,7 @@ export interface State {
   at_ms: number;
   run_id: string;
   board: "present" | "partial" | "absent" | "wrong";
+  /** Null unless the whole declared board is present. */
   seen: BoardSeen | null;
   /** Null once all poses are captured. */
   ghost: Ghost | null;

@@ -1,0 +1,32 @@
+"""The virtual vehicle that a virtual station shows: everything about it follows from its serial.
+
+The same serial is the same camera, so that a run that is resumed goes on with the same vehicle. Not here:
+frames (`frame_source`), and how fast anybody pulls them.
+"""
+
+import hashlib
+
+import numpy as np
+
+from service.core.vision.camera import Intrinsics
+from service.core.vision.target import Chessboard
+from service.simulator.frame_source import VirtualSource, make_virtual_source
+from service.simulator.operator import Hand
+from service.simulator.scene import production_scene
+from service.simulator.vehicle import Tolerance, draw_camera
+
+
+def camera_of_serial(nominal: Intrinsics, serial: str) -> Intrinsics:
+    """Return the true camera of a virtual vehicle: within the tolerance of its SKU's nominal one."""
+    return draw_camera(nominal, Tolerance(), _rng(serial))
+
+
+def source_of_serial(nominal: Intrinsics, target: Chessboard, serial: str) -> VirtualSource:
+    """Return the live camera of a virtual vehicle, with a hand before it; takes a second or two."""
+    scene = production_scene(camera_of_serial(nominal, serial), target)
+    return make_virtual_source(scene, Hand(target), _rng(f"{serial} hand"))
+
+
+def _rng(words: str) -> np.random.Generator:
+    digest = hashlib.sha256(words.encode("utf-8", "surrogatepass")).digest()
+    return np.random.default_rng(int.from_bytes(digest[:8], "little"))
