@@ -10,15 +10,17 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project, project_camera_points
 from service.core.vision.target import Chessboard
-from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
+from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector, stack_poses
 
 # A board whose x axis points elsewhere by more than this is better turned round than rotated.
 UPSIDE_DOWN_RAD: Final = float(np.deg2rad(120.0))
 WIDTH_OF_TOLERANCES: Final = 1280
 BAR_REACH: Final = 4.0  # an error of so many tolerances beyond the first halves the match bar
+BORDER_PX: Final = 4.0  # corners nearer to the border cannot be found
 UNSEEN_PX: Final = 1e4
 
 
@@ -58,7 +60,8 @@ class PoseDifference:
                      / bottom                             (o)
 
     corner_px: mean distance of the four outer corners, the paper's rule. effects_px: by how much each of the
-    six errors alone moves those corners, in the order of the fields. is_upside_down: turned by about 180°.
+    six errors alone moves those corners, in the order of the fields. leads_out: whether to mend that error
+    alone would take a corner of the seen board out of the picture. is_upside_down: turned by about 180°.
     """
 
     right_px: float
@@ -70,6 +73,7 @@ class PoseDifference:
     corner_px: float
     is_upside_down: bool
     effects_px: tuple[float, float, float, float, float, float]
+    leads_out: tuple[bool, bool, bool, bool, bool, bool] = (False,) * 6
 
 
 def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
@@ -80,31 +84,29 @@ def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
 
 def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Chessboard) -> PoseDifference:
     """Return how the seen board must move to reach the expected pose; both poses before the camera."""
-    R, R_seen = expected.rotation, seen.rotation
-    wanted, found = R @ target.centre + expected.tvec, R_seen @ target.centre + seen.tvec
-    right, down = project_camera_points(intrinsics, wanted) - project_camera_points(intrinsics, found)
-    closer = found[2] / wanted[2] - 1.0
-    turns = rotation_vector(R @ R_seen.T)
-    outer = target.object_points[list(target.outer_corners)] - target.centre
-    rotations, centres = _displaced(R, wanted, turns, closer)
-    corners = project(
-        intrinsics, np.concatenate([rotations, R_seen[None]]), np.vstack([centres, found]), outer
-    )
-    distances = np.linalg.norm(corners[1:] - corners[0], axis=-1).mean(axis=-1)
-    closer_px, tilt_px, turn_px, roll_px, corner_px = (
-        float(d) for d in np.nan_to_num(distances, nan=UNSEEN_PX)
-    )
+    wanted, found = _at_centre(expected, target), _at_centre(seen, target)
+    pixels = project_camera_points(intrinsics, np.array([wanted.tvec, found.tvec]))
+    right, down = (float(way) for way in pixels[0] - pixels[1])
+    closer = float(found.tvec[2] / wanted.tvec[2] - 1.0)
+    turns = rotation_vector(wanted.rotation @ found.rotation.T)
     tilt, turn, roll = (float(angle) for angle in turns)
+    outer = target.object_points[list(target.outer_corners)] - target.centre
+    off = _spoilt(wanted, turns, closer)
+    mended = _mended(found, turns, closer, (right, down) / np.diag(intrinsics.camera_matrix)[:2])
+    corners = _project_all(intrinsics, [wanted, found, *off, *mended], outer)
+    distances = np.nan_to_num(np.linalg.norm(corners[1:6] - corners[0], axis=-1), nan=UNSEEN_PX).mean(axis=-1)
+    corner_px, *effects_px = (float(distance) for distance in distances)
     return PoseDifference(
-        right_px=float(right),
-        down_px=float(down),
-        closer_share=float(closer),
+        right_px=right,
+        down_px=down,
+        closer_share=closer,
         tilt_rad=tilt,
         turn_rad=turn,
         roll_rad=roll,
         corner_px=corner_px,
-        is_upside_down=_axis_angle(R, R_seen) > UPSIDE_DOWN_RAD,
-        effects_px=(abs(float(right)), abs(float(down)), closer_px, tilt_px, turn_px, roll_px),
+        is_upside_down=_axis_angle(wanted.rotation, found.rotation) > UPSIDE_DOWN_RAD,
+        effects_px=(abs(right), abs(down), *effects_px),
+        leads_out=tuple(~_are_inside(corners[6:], intrinsics.image_size)),
     )
 
 
@@ -134,10 +136,38 @@ def _match_errors(difference: PoseDifference, tolerances: Tolerances) -> tuple[f
     )
 
 
-def _displaced(R: Array, centre: Array, turns: Array, closer: float) -> tuple[Array, Array]:
-    """Return the expected pose, then it with one error each: rotations (5, 3, 3), centres (5, 3) m."""
-    single = rotation_matrix(-np.diag(turns)) @ R
-    return np.concatenate([[R, R], single]), np.outer([1.0, 1.0 + closer, 1.0, 1.0, 1.0], centre)
+def _at_centre(pose: Pose, target: Chessboard) -> Pose:
+    """Return the pose of the board's centre."""
+    return Pose(pose.rvec, pose.rotation @ target.centre + pose.tvec)
+
+
+def _spoilt(wanted: Pose, turns: Array, closer: float) -> list[Pose]:
+    """Return the expected pose of the centre with one error each: closer, tilt, turn, roll."""
+    R, centre = wanted.rotation, wanted.tvec
+    turned = [Pose(rotation_vector(S @ R), centre) for S in rotation_matrix(-np.diag(turns))]
+    return [Pose(wanted.rvec, centre * (1.0 + closer)), *turned]
+
+
+def _mended(found: Pose, turns: Array, closer: float, shift: Array) -> list[Pose]:
+    """Return the seen pose of the centre with one error less each, in the order of PoseDifference.
+
+    shift: (2,), of the centre in the ideal image plane, nearly.
+    """
+    R, centre = found.rotation, found.tvec
+    shifted = [Pose(found.rvec, centre + centre[2] * shift[i] * np.eye(3)[i]) for i in range(2)]
+    turned = [Pose(rotation_vector(S @ R), centre) for S in rotation_matrix(np.diag(turns))]
+    return [*shifted, Pose(found.rvec, centre / (1.0 + closer)), *turned]
+
+
+def _project_all(intrinsics: Intrinsics, poses: list[Pose], points: Array) -> Array:
+    """Return points (n, 3) m as they are seen (poses, n, 2) px."""
+    return project(intrinsics, *stack_poses(poses), points)
+
+
+def _are_inside(corners: Array, image_size: tuple[int, int]) -> NDArray[np.bool_]:
+    """Return which boards' corners (m, n, 2) px all lie in the picture, not too near to its border."""
+    last = np.array(image_size) - 1.0 - BORDER_PX
+    return np.asarray(np.all((corners >= BORDER_PX) & (corners <= last), axis=(1, 2)))
 
 
 def _axis_angle(R: Array, R_seen: Array) -> float:

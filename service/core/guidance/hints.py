@@ -62,7 +62,7 @@ EFFECT_SHARE: Final = 0.6
 # A hint that is being followed is kept until its error is within this share of its tolerance.
 KEPT_UNTIL: Final = 0.7
 # Up to so many tolerances, so much is left to go.
-AMOUNTS: Final = ((2.0, 0.1), (4.0, 0.25), (8.0, 0.5), (float("inf"), 1.0))
+AMOUNTS: Final = ((2.0, 0.05), (4.0, 0.1), (8.0, 0.2), (16.0, 0.4), (float("inf"), 1.0))
 
 _MIRRORED_PAIRS: Final = (
     (Hint.MOVE_LEFT, Hint.MOVE_RIGHT),
@@ -79,7 +79,8 @@ def choose_hints(
 ) -> tuple[Hint, ...]:
     """Return at most two movements: those of the previous that are not done yet, then the largest errors.
 
-    Errors are measured in units of their tolerances. None where the pose matches; only TURN_UPSIDE_DOWN where
+    Errors are measured in units of their tolerances. What would take the board out of the picture as it is
+    held now waits until the other errors are mended: a board for the picture's corner is turned first. None where the pose matches; only TURN_UPSIDE_DOWN where
     the board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
     """
     if difference.is_upside_down:
@@ -91,7 +92,9 @@ def choose_hints(
     wanted = [hint for hint in errors if errors[hint] > limits[hint]] or [
         max(errors, key=lambda h: errors[h])
     ]
-    ordered = sorted(wanted, key=lambda hint: (_place(hint, previous), -errors[hint]))
+    wary = dict(zip(errors, difference.leads_out, strict=True))
+    safe = [hint for hint in wanted if hint in previous or not wary[hint]]
+    ordered = sorted(safe or wanted, key=lambda hint: (_place(hint, previous), -errors[hint]))
     return tuple(ordered[:MOST_HINTS])
 
 
