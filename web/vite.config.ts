@@ -10,12 +10,18 @@ export default defineConfig({
     target: "es2022",
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
-    rolldownOptions: { input: { dashboard: "dashboard.html" } },
+    rolldownOptions: { input: { dashboard: "dashboard.html", kiosk: "kiosk.html" } },
   },
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
   server: {
     open: "/dashboard.html",
-    proxy: { "/api": service, "/livez": service, "/readyz": service, "/problems": service },
+    proxy: {
+      "/api": service,
+      "/livez": service,
+      "/readyz": service,
+      "/problems": service,
+      "/ws": { target: service, ws: true },
+    },
   },
   test: { include: ["src/**/*.test.ts", "scripts/**/*.test.ts"], environment: "node" },
 });

@@ -14,6 +14,7 @@ router = APIRouter(dependencies=[PUBLIC], include_in_schema=False)
 
 PACKAGE = Path(__file__).resolve().parent.parent
 FIRST_PAGE = "dashboard.html"
+KIOSK_PAGE = "kiosk.html"
 # Vite names assets by their content, so that a changed file has another address.
 HASHED = "public, max-age=31536000, immutable"
 FRESH = "no-cache"
@@ -36,10 +37,13 @@ WebDirectory = Annotated[Path, Depends(web_directory)]
 @router.get("/")
 def read_first_page(web: WebDirectory) -> Response:
     """Answer the first page, or a page that says how to build it."""
-    file = web / FIRST_PAGE
-    if not file.is_file():
-        return page("dmscal", NOT_BUILT)
-    return FileResponse(file, headers={"Cache-Control": FRESH})
+    return _page_of(web / FIRST_PAGE)
+
+
+@router.get("/kiosk")
+def read_kiosk(web: WebDirectory) -> Response:
+    """Answer the page of a station; `?station=CODE` says which one."""
+    return _page_of(web / KIOSK_PAGE)
 
 
 @router.get("/{path:path}")
@@ -54,3 +58,9 @@ def read_file(path: str, web: WebDirectory) -> Response:
         )
     cached = HASHED if path.startswith("assets/") else FRESH
     return FileResponse(file, headers={"Cache-Control": cached})
+
+
+def _page_of(file: Path) -> Response:
+    if not file.is_file():
+        return page("dmscal", NOT_BUILT)
+    return FileResponse(file, headers={"Cache-Control": FRESH})

@@ -33,7 +33,8 @@ class Serving:
             create_app(self.settings),
             host=self.settings.host,
             port=self.settings.port,
-            ws="none",
+            ws="websockets-sansio",
+            ws_per_message_deflate=False,
             log_level="warning",
         )
         self._server = uvicorn.Server(config)

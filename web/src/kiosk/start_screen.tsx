@@ -1,0 +1,107 @@
+// Before a run: which vehicle, and, where there is a choice, which camera it has.
+import { type JSX } from "preact";
+import { useState } from "preact/hooks";
+import { words } from "../words/language";
+import type { Words } from "../words/en";
+import type { Kiosk } from "./kiosk";
+import { problemText } from "./said";
+import { Switches } from "./switches";
+
+export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
+  const say = words.value;
+  const { welcome, problem } = kiosk.state.value;
+  const skus = welcome?.skus ?? [];
+  return (
+    <main class="start">
+      <section class="start-card">
+        <p class="start-station">
+          {say.kiosk_title} <b>{welcome?.name ?? kiosk.station}</b>
+        </p>
+        <h1>{say.start_title}</h1>
+        {skus.length === 0 ? (
+          <p class="start-none" role="alert">
+            <strong>{say.start_no_sku}</strong> {say.start_no_sku_detail}
+          </p>
+        ) : (
+          <SerialForm kiosk={kiosk} say={say} />
+        )}
+        {skus.length > 1 && <SkuChoice kiosk={kiosk} skus={skus} say={say} />}
+        {problem !== null && <StartProblem kiosk={kiosk} say={say} />}
+      </section>
+      <Switches kiosk={kiosk} />
+    </main>
+  );
+}
+
+function SerialForm({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element {
+  const [typed, setTyped] = useState("");
+  const mayStart = kiosk.sku.value !== null;
+  const begin = (event: SubmitEvent): void => {
+    event.preventDefault();
+    if (mayStart && typed.trim() !== "") kiosk.begin(typed.trim());
+  };
+  return (
+    <form class="serial-form" onSubmit={begin}>
+      <label for="serial">{say.start_detail}</label>
+      <div class="serial-row">
+        <input
+          id="serial"
+          class="serial-field"
+          autocomplete="off"
+          autocapitalize="characters"
+          spellcheck={false}
+          maxLength={200}
+          aria-label={say.start_serial}
+          value={typed}
+          ref={(input) => input?.focus()}
+          onInput={(event) => setTyped(event.currentTarget.value)}
+        />
+        <button type="submit" class="act act-primary" disabled={!mayStart || typed.trim() === ""}>
+          {say.start_go}
+        </button>
+      </div>
+    </form>
+  );
+}
+
+interface SkuProps {
+  kiosk: Kiosk;
+  skus: readonly string[];
+  say: Words;
+}
+
+function SkuChoice({ kiosk, skus, say }: SkuProps): JSX.Element {
+  return (
+    <fieldset class="sku-choice">
+      <legend>{say.start_sku}</legend>
+      {skus.map((code) => (
+        <button
+          key={code}
+          type="button"
+          class="act"
+          aria-pressed={kiosk.sku.value === code}
+          onClick={() => kiosk.setSku(code)}
+        >
+          {code}
+        </button>
+      ))}
+    </fieldset>
+  );
+}
+
+function StartProblem({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element | null {
+  const { problem } = kiosk.state.value;
+  if (problem === null) return null;
+  const { title, detail, isTranslated } = problemText(problem, say);
+  return (
+    <div
+      class="start-problem"
+      role="alert"
+      data-problem={problem.code}
+      {...(isTranslated ? {} : { lang: "en" })}
+    >
+      <strong>{title}</strong>
+      <p>{detail}</p>
+    </div>
+  );
+}

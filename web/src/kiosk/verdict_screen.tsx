@@ -1,0 +1,93 @@
+// The result over the whole screen, for eyes two metres away: shape, word, what to do, and why.
+import { type JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import { significant, plain, withUnit } from "../format/numbers";
+import type { GateLine, RunVerdict } from "../generated/protocol";
+import { VerdictMark } from "../shell/verdict_mark";
+import { language, words } from "../words/language";
+import { gateName, measurementName, unitName } from "../words/measurements";
+import type { Words } from "../words/en";
+import type { Kiosk } from "./kiosk";
+import { remedyOf } from "./said";
+
+const REASONS_SHOWN = 3;
+/** A foot that still stands on the switch must not wipe the verdict away. */
+const READ_MS = 1500;
+
+export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVerdict }): JSX.Element {
+  const say = words.value;
+  const standing = verdict.verdict;
+  const toDo = {
+    PASS: say.verdict_do_PASS,
+    MARGINAL: say.verdict_do_MARGINAL,
+    FAIL: say.verdict_do_FAIL,
+  }[standing];
+  const word = { PASS: say.verdict_PASS, MARGINAL: say.verdict_MARGINAL, FAIL: say.verdict_FAIL }[standing];
+  const open = verdict.gates.filter((gate) => gate.verdict !== "PASS");
+  return (
+    <main class={`verdict verdict-${standing}`} data-verdict={standing}>
+      <div class="verdict-head">
+        <VerdictMark standing={standing} size={240} />
+        <h1 class="verdict-word">{word}</h1>
+      </div>
+      <p class="verdict-serial">{verdict.serial}</p>
+      <p class="verdict-do" role="alert">
+        {toDo}
+      </p>
+      {open.length > 0 && <Reasons gates={open} say={say} />}
+      <NextVehicle kiosk={kiosk} say={say} />
+    </main>
+  );
+}
+
+function Reasons({ gates, say }: { gates: readonly GateLine[]; say: Words }): JSX.Element {
+  return (
+    <section class="why">
+      <ul aria-label={say.verdict_why}>
+        {gates.slice(0, REASONS_SHOWN).map((gate) => (
+          <Reason key={`${gate.gate}.${gate.name}`} gate={gate} say={say} />
+        ))}
+      </ul>
+      {gates.length > REASONS_SHOWN && (
+        <p class="why-more">{say.verdict_more(gates.length - REASONS_SHOWN)}</p>
+      )}
+    </section>
+  );
+}
+
+function Reason({ gate, say }: { gate: GateLine; say: Words }): JSX.Element {
+  const unit = unitName(gate.unit, language.value);
+  const measured = gate.value === null ? say.not_determined : withUnit(significant(gate.value), unit);
+  const limit = gate.limit === null ? "" : ` (${sign(gate.comparison)} ${withUnit(plain(gate.limit), unit)})`;
+  return (
+    <li>
+      <strong>
+        {gateName(gate.gate, say)}: {measurementName(gate.name, language.value)} {measured}
+        {limit}
+      </strong>
+      <span class="why-do">{remedyOf(gate.gate, say) ?? gate.advice}</span>
+    </li>
+  );
+}
+
+function sign(comparison: string): string {
+  return { "<=": "≤", ">=": "≥", "==": "=" }[comparison] ?? comparison;
+}
+
+function NextVehicle({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element {
+  const button = useRef<HTMLButtonElement>(null);
+
+  useEffect(() => {
+    const timer = window.setTimeout(() => button.current?.focus(), READ_MS);
+    return () => window.clearTimeout(timer);
+  }, []);
+
+  return (
+    <footer class="verdict-next">
+      <button ref={button} type="button" class="act act-next" onClick={() => kiosk.nextVehicle()}>
+        {say.verdict_next} <kbd>Enter</kbd>
+      </button>
+      <span>{say.verdict_next_detail}</span>
+    </footer>
+  );
+}

@@ -1,0 +1,138 @@
+// Every text of the kiosk in German. *Sterne* markieren das Wort, auf das es ankommt; es steht in Großbuchstaben.
+import type { KioskWords } from "./en_kiosk";
+
+export const deKiosk: KioskWords = {
+  kiosk_title: "Kalibrierstation",
+  kiosk_tagline: "Das Target so halten, wie das Bild es zeigt",
+  kiosk_no_station: "Welche Station ist das?",
+  kiosk_no_station_detail:
+    "Die Adresse muss sie nennen: /kiosk?station=CODE. Die Codes stehen unter /api/v1/stations.",
+  kiosk_station_code: "Code der Station",
+  kiosk_open_station: "Öffnen",
+  kiosk_connecting: "Verbindung zur Station …",
+  kiosk_key_explain:
+    "Diese Station braucht einen Schlüssel für Bediener. Der Ingenieur erzeugt ihn mit „dmscal keys“.",
+
+  start_title: "Fahrzeug scannen",
+  start_detail: "Seriennummer vom Etikett scannen oder tippen und Enter drücken.",
+  start_serial: "Seriennummer",
+  start_go: "Start",
+  start_sku: "Kameratyp",
+  start_no_sku: "Kein Kameratyp ist bereit",
+  start_no_sku_detail: "Der Ingenieur gibt eine SKU und ihre Posen frei; dann erscheint sie hier.",
+  start_too_short: "Eine Seriennummer hat mindestens ein Zeichen. Etikett noch einmal scannen.",
+
+  hint_move_left: "Nach *links*",
+  hint_move_right: "Nach *rechts*",
+  hint_move_up: "Nach *oben*",
+  hint_move_down: "Nach *unten*",
+  hint_move_closer: "*Näher* zur Kamera",
+  hint_move_away: "*Weiter weg* von der Kamera",
+  hint_tilt_top_back: "Oberkante *nach hinten* kippen",
+  hint_tilt_top_forward: "Oberkante *zur Kamera* kippen",
+  hint_turn_left_back: "Linke Seite *nach hinten* drehen",
+  hint_turn_right_back: "Rechte Seite *nach hinten* drehen",
+  hint_rotate_clockwise: "*Im* Uhrzeigersinn drehen",
+  hint_rotate_counterclockwise: "*Gegen* den Uhrzeigersinn drehen",
+  hint_turn_upside_down: "Target *auf den Kopf* stellen",
+  hint_hold_still: "*Still* halten",
+  hint_hold: "*Halten* …",
+  hint_show_board: "Der Kamera das *Target* zeigen",
+  hint_show_whole_board: "Das *ganze* Target zeigen",
+  hint_more_light: "Mehr *Licht*, bitte",
+  hint_less_light: "Weniger *Licht*, bitte",
+  hint_wrong_board: "Das ist ein *anderes Target*",
+
+  guide_next: "Danach",
+  guide_dot_into_ring: "Den Punkt in den Ring bringen",
+  guide_wrong_board: "Das Target dieser Station nehmen",
+  guide_capturing: "Aufnahme …",
+  guide_finishing: "Alle Posen aufgenommen. Das Ergebnis wird berechnet …",
+  guide_waiting: "Warten auf das Bild …",
+  guide_picture: "Live-Bild: gesuchtes Target gestrichelt, gesehenes Target in durchgezogenen Linien",
+  guide_match: "Übereinstimmung",
+  guide_poses: "Posen",
+  guide_of: (done, total) => `${done} von ${total} Posen aufgenommen`,
+  guide_pose: (number) => `Pose ${number}`,
+  guide_pose_taken: (number) => `Pose ${number}, aufgenommen. Noch einmal aufnehmen`,
+  guide_pose_now: (number) => `Pose ${number}, jetzt gesucht`,
+  guide_accuracy: "Brennweite bisher",
+  guide_promised: (value) => `geplant ± ${value}`,
+  guide_accuracy_none: "nach einigen Posen",
+  guide_manual: "Aufnahme drücken, sobald das Target im gestrichelten Umriss liegt",
+
+  act_capture: "Aufnahme",
+  act_undo: "Zurück",
+  act_abort: "Abbruch",
+  act_automatic: "Automatik",
+  act_mirror: "Spiegel",
+  act_sound: "Ton",
+  act_capture_key: "Leertaste",
+  act_abort_key: "Esc",
+  act_undo_key: "⌫",
+  state_on: "an",
+  state_off: "aus",
+
+  abort_title: "Diesen Lauf abbrechen?",
+  abort_detail: (captures) =>
+    captures === 1
+      ? "Das Fahrzeug bekommt kein Ergebnis. Die Aufnahme bleibt beim abgebrochenen Lauf gespeichert."
+      : `Das Fahrzeug bekommt kein Ergebnis. Die ${captures} Aufnahmen bleiben beim abgebrochenen Lauf gespeichert.`,
+  abort_yes: "Lauf abbrechen",
+  abort_no: "Weitermachen",
+
+  retake_title: (number) => `Pose ${number} noch einmal aufnehmen?`,
+  retake_detail: "Ihre Aufnahme wird zurückgezogen, und die Pose wird jetzt gesucht.",
+  retake_yes: "Noch einmal",
+
+  verdict_do_PASS: "Die Kamera ist gut. Das Ergebnis ist gespeichert.",
+  verdict_do_MARGINAL:
+    "Brauchbar, aber nahe an einer Grenze. Das Ergebnis ist gespeichert; den Qualitätsingenieur rufen.",
+  verdict_do_FAIL:
+    "Diese Kamera nicht ausliefern. Das Ergebnis ist gespeichert. Zur Wiederholung das Fahrzeug noch einmal scannen.",
+  verdict_why: "Warum",
+  verdict_more: (count) => `und ${count} weitere, siehe Ergebnis`,
+  verdict_next: "Nächstes Fahrzeug",
+  verdict_next_detail: "oder sein Etikett scannen",
+  verdict_result: "Ganzes Ergebnis",
+
+  remedy_frame: "Target und Licht prüfen, dann neu kalibrieren.",
+  remedy_sharpness:
+    "Linse und Target reinigen. Bleibt es unscharf, ist die Kamera defokussiert: zur Nacharbeit geben.",
+  remedy_poses: "Neu kalibrieren und dem gestrichelten Umriss genau folgen.",
+  remedy_fit: "Target still halten und neu kalibrieren. Scheitert es wieder, das Target auf Schäden prüfen.",
+  remedy_certainty: "Neu kalibrieren; jede Pose muss aufgenommen werden.",
+  remedy_bias: "Prüfen, ob das Target eben und sauber ist, dann neu kalibrieren.",
+  remedy_model: "Die Linse ist nicht wie angegeben: Kamera dem Qualitätsingenieur geben.",
+  remedy_identity: "Das ist vielleicht eine andere Kamera als angegeben: Etikett und Kameratyp prüfen.",
+  remedy_score: "Die Kamera ist weit von ihrem Datenblatt entfernt: dem Qualitätsingenieur geben.",
+
+  closed_taken: "Ein anderer Kiosk hält diese Station",
+  closed_taken_detail: "Dort schließen. Diese Seite übernimmt von selbst, sobald die Station frei ist.",
+  closed_unknown: "Diese Station ist nicht bekannt",
+  closed_unknown_detail: "Den Code in der Adresse prüfen oder die Station vom Ingenieur anlegen lassen.",
+  closed_role: "Dieser Schlüssel darf an keiner Station arbeiten",
+  closed_role_detail: "Einen Schlüssel mit der Rolle eines Bedieners verwenden.",
+  closed_key: "Der Dienst nimmt den Schlüssel nicht an",
+  closed_key_detail: "Einen anderen Schlüssel eingeben oder den Ingenieur danach fragen.",
+  closed_lost: "Kein Server",
+  closed_lost_detail: "Diese Seite versucht es von selbst weiter. Dauert es lange, die Werks-IT rufen.",
+  closed_retry: "Noch einmal versuchen",
+  closed_other_key: "Anderen Schlüssel eingeben",
+  lost_title: "Kein Server",
+  lost_detail:
+    "Jede angenommene Aufnahme ist gespeichert. Der Lauf geht von selbst weiter, sobald der Dienst antwortet.",
+
+  camera_title: "Die Kamera ist nicht zu benutzen",
+  camera_denied: "Dieser Seite die Kamera erlauben, dann die Seite neu laden.",
+  camera_missing: "Keine Kamera gefunden. Anschließen, dann die Seite neu laden.",
+  camera_busy: "Ein anderes Programm hält die Kamera. Es schließen, dann die Seite neu laden.",
+  camera_unsupported:
+    "Dieser Browser gibt keine Rohbilder her, oder die Seite ist nicht sicher geöffnet. Chromium verwenden, über https oder auf diesem Rechner.",
+  camera_ended: "Die Kamera wurde abgezogen. Anschließen, dann die Seite neu laden.",
+  refused_title: "Nicht aufgenommen",
+  problem_read: "Verstanden",
+
+  told_run_open: "Hier ist ein anderes Fahrzeug offen",
+  told_run_open_detail: (serial) => `Erst ${serial} beenden oder abbrechen, dann noch einmal scannen.`,
+};
