@@ -158,15 +158,20 @@ def problem(answer: httpx2.Response, status: int, code: str) -> JsonObject:
 
 
 @contextmanager
-def running_plant(database_address: str, directory: Path) -> Iterator[Plant]:
-    """The service on a database with its images in a directory, until the block ends."""
+def running_plant(database_address: str, directory: Path, **options: Any) -> Iterator[Plant]:
+    """The service on a database with its images in a directory, until the block ends.
+
+    options: of the service's settings, and `make_source` for its virtual stations.
+    """
+    make_source = {"make_source": options.pop("make_source")} if "make_source" in options else {}
     settings = Settings(
         _env_file=None,
         data_dir=directory,
         database_url=database_address,
         blobs_url=f"file:{directory / 'blobs'}",
+        **options,
     )
-    app = create_app(settings)
+    app = create_app(settings, **make_source)
     with redirect_stdout(StringIO()), TestClient(app, raise_server_exceptions=False) as client:
         services = app.state.services
         with services.database.write() as session:

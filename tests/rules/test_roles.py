@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 import pytest
 from fastapi.dependencies.models import Dependant
-from fastapi.routing import APIRoute, iter_route_contexts
+from fastapi.routing import APIRoute, APIWebSocketRoute, iter_route_contexts
 
 from service.api.application import create_api
-from service.api.auth import RequireRole, nobody
+from service.api.auth import RequireRole, SocketRoles, nobody
 from service.storage.words import Role
 from tests.plant import Plant, problem
 
@@ -20,6 +20,7 @@ PUBLIC = {
     "/problems",
     "/problems/{code}",
     "/",
+    "/kiosk",
     "/{path:path}",
 }
 ROUTES = [
@@ -27,6 +28,11 @@ ROUTES = [
     for route in iter_route_contexts(create_api().routes)
     for method in sorted(route.methods or ())
     if isinstance(route.original_route, APIRoute) and route.path is not None
+]
+SOCKETS = [
+    (route.path, route.original_route.dependant)
+    for route in iter_route_contexts(create_api().routes)
+    if isinstance(route.original_route, APIWebSocketRoute)
 ]
 # What changes the plant's set-up; operators only calibrate.
 ENGINEERS = {"/skus", "/targets", "/stations", "/pose-sets", "/jobs", "/keys"}
@@ -66,6 +72,17 @@ def test_a_public_route_says_so(path: str) -> None:
 def test_only_engineers_change_how_the_plant_works(method: str, path: str, dependant: Dependant) -> None:
     if method in {"POST", "DELETE"} and any(path.startswith(f"/api/v1{start}") for start in ENGINEERS):
         assert role_of(dependant) in {Role.ENGINEER, Role.ADMIN}
+
+
+def test_every_socket_names_the_roles_of_kiosks_and_monitors() -> None:
+    roles = {
+        path: [call for call in calls(dependant) if isinstance(call, SocketRoles)]
+        for path, dependant in SOCKETS
+    }
+
+    assert roles == {
+        "/ws/v1/stations/{code}/guidance": [SocketRoles(kiosk=Role.OPERATOR, monitor=Role.VIEWER)]
+    }
 
 
 def test_without_a_key_nothing_is_answered(small_plant: Plant) -> None:
