@@ -52,7 +52,7 @@ def run(quick: bool) -> dict[str, Any]:
     empty = [_background(prepared, seed).render(nothing, rng) for seed in range(2 if quick else 12)]
     return {
         "ours": judge(_ours, images, truths),
-        "opencv": judge(_opencv, images, truths),
+        "opencv": judge(opencv_corners, images, truths),
         "opencv_sb": judge(_opencv_sb, images[: len(images) // 3], truths),
         "wrong_target_share": float(np.mean([_names_the_board(image) for image in images])),
         "cut_off": _judge_refusals(cut),
@@ -135,7 +135,8 @@ def _names_the_board(image: Image) -> bool:
     return False
 
 
-def _opencv(image: Image) -> Array | None:
+def opencv_corners(image: Image) -> Array | None:
+    """Return the corners (n, 2) px in our order as OpenCV finds them, or None."""
     flags = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
     found, corners = cv2.findChessboardCorners(image, (TARGET.columns, TARGET.rows), flags=flags)
     if not found:
@@ -160,11 +161,11 @@ def _dark_first(image: Image, corners: Array) -> Array:
     return corners if first < second else corners[::-1]
 
 
-def cut_off(pose: Pose) -> Pose:
+def cut_off(pose: Pose, camera: Intrinsics = LENS1) -> Pose:
     """Move a board sideways until part of its corners is beyond the border."""
-    width, _ = LENS1.image_size
+    width, _ = camera.image_size
     step = np.array([0.1 * TARGET.square_m * np.sign(pose.tvec[0]), 0.0, 0.0])
-    scene = production_scene(LENS1, TARGET)
+    scene = production_scene(camera, TARGET)
     for _ in range(1000):
         x = true_corners(scene, pose)[:, 0]
         if np.nanmin(x) < -5.0 or np.nanmax(x) > width + 4.0:

@@ -5,12 +5,13 @@ Pulled frame by frame in simulated time: no thread, no clock. Not here: how fast
 
 from collections import OrderedDict
 from dataclasses import dataclass
-from typing import Generic, Protocol, TypeVar
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from service.core.errors import FrameForgotten
+from service.core.guidance.hints import ShownHint
 from service.core.vision.transforms import Pose
 from service.simulator.live_renderer import LiveRenderer
 from service.simulator.renderer import PreparedScene, prepare
@@ -18,13 +19,11 @@ from service.simulator.scene import Scene
 
 KEPT_S = 2.0  # how long the pose of a frame can be asked for a capture
 
-Hints_contra = TypeVar("Hints_contra", contravariant=True)
 
-
-class Operator(Protocol[Hints_contra]):
+class Operator(Protocol):
     """What holds the board: the simulated hand, or a script of a test."""
 
-    def step(self, hints: Hints_contra, dt_s: float, rng: np.random.Generator) -> Pose:
+    def step(self, hints: tuple[ShownHint, ...], dt_s: float, rng: np.random.Generator) -> Pose:
         """Return the pose of the board `dt_s` later, seeing nothing but the hints."""
         ...
 
@@ -39,38 +38,42 @@ class LiveFrame:
     at_s: float
 
 
-class VirtualSource(Generic[Hints_contra]):
+class VirtualSource:
     """Frames of a prepared scene, whose board a hand moves; each frame's pose is kept for two seconds."""
 
     def __init__(
         self,
         prepared: PreparedScene,
         live: LiveRenderer,
-        hand: Operator[Hints_contra],
+        hand: Operator,
         rng: np.random.Generator,
     ) -> None:
         """Take what is ready to draw; `make_virtual_source` makes it ready, which takes a second."""
-        self._prepared, self._live, self._hand, self._rng = prepared, live, hand, rng
+        self._prepared, self._live, self._hand = prepared, live, hand
+        # Apart, so that a capture in between changes no frame.
+        self._hand_rng, self._frame_rng, self._capture_rng = rng.spawn(3)
         self._sequence = 0
         self._at_s = 0.0
         self._kept: OrderedDict[int, tuple[float, Pose]] = OrderedDict()
 
-    def next_frame(self, hints: Hints_contra, dt_s: float) -> LiveFrame:
+    def next_frame(self, hints: tuple[ShownHint, ...], dt_s: float) -> LiveFrame:
         """Return the live frame that follows `dt_s` after the last one, the hand having seen the hints."""
-        pose = self._hand.step(hints, dt_s, self._rng)
+        pose = self._hand.step(hints, dt_s, self._hand_rng)
         self._sequence += 1
         self._at_s += dt_s
         self._kept[self._sequence] = (self._at_s, pose)
         while next(iter(self._kept.values()))[0] < self._at_s - KEPT_S:
             self._kept.popitem(last=False)
-        return LiveFrame(self._sequence, self._live.frame(pose, self._rng), self._live.scale, self._at_s)
+        return LiveFrame(
+            self._sequence, self._live.frame(pose, self._frame_rng), self._live.scale, self._at_s
+        )
 
     def capture(self, sequence: int) -> NDArray[np.uint8]:
         """Return the exact picture (h, w), at full size, of the very pose that a frame showed.
 
         Raises FrameForgotten when the frame is more than two seconds old or never was.
         """
-        return self._prepared.render(self.pose_of(sequence), self._rng)
+        return self._prepared.render(self.pose_of(sequence), self._capture_rng)
 
     def pose_of(self, sequence: int) -> Pose:
         """Return the true pose `T_cam_board` of a frame, for judging; raises FrameForgotten."""
@@ -83,8 +86,6 @@ class VirtualSource(Generic[Hints_contra]):
         return kept[1]
 
 
-def make_virtual_source(
-    scene: Scene, hand: Operator[Hints_contra], rng: np.random.Generator
-) -> VirtualSource[Hints_contra]:
+def make_virtual_source(scene: Scene, hand: Operator, rng: np.random.Generator) -> VirtualSource:
     """Return the source of a scene; takes a second or two."""
     return VirtualSource(prepare(scene), LiveRenderer(scene), hand, rng)

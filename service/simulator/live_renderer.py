@@ -23,6 +23,7 @@ from service.simulator.sensor import expose
 Levels = NDArray[np.float32]
 
 SCALE = 2  # full-size pixels per pixel of a live frame
+FINEST_GAUSSIAN_PX = 0.7
 WIDEST_RAMP = 1.0  # of a square: wider, and its neighbours would be left out
 
 
@@ -34,6 +35,8 @@ class LiveRenderer:
     def __init__(self, scene: Scene) -> None:
         """Trace the rays of the half-size picture; takes a third of a second."""
         self._scene = halve_scene(scene)
+        self._sensor = replace(self._scene, blur_px=0.0)
+        self._kernel = _blur_kernel(self._scene.blur_px)
         self._plate = make_plate(scene.target, scene.border_squares)
         rays = trace_rays(self._scene.intrinsics).ideal
         self._rays = np.nan_to_num(rays).astype(np.float32)
@@ -44,7 +47,10 @@ class LiveRenderer:
 
     def frame(self, pose: Pose, rng: np.random.Generator) -> NDArray[np.uint8]:
         """Return a frame (h, w) of half the camera's width and height, with the board at a pose."""
-        return expose(self._light(pose), self._scene, rng)
+        light = self._light(pose)
+        if self._scene.blur_px > 0:
+            light = np.asarray(cv2.sepFilter2D(light, -1, self._kernel, self._kernel), dtype=np.float32)
+        return expose(light, self._sensor, rng)
 
     def _light(self, pose: Pose) -> Levels:
         light = self._background.copy()
@@ -108,6 +114,15 @@ def halve_scene(scene: Scene) -> Scene:
         blur_px=scene.blur_px / SCALE,
         noise_grey=scene.noise_grey / SCALE,
     )
+
+
+def _blur_kernel(sigma_px: float) -> Levels:
+    """Return a Gaussian's kernel (k,), or three values of its variance where pixels are too coarse for it."""
+    if sigma_px < FINEST_GAUSSIAN_PX:
+        side = 0.5 * sigma_px**2
+        return np.array([side, 1.0 - 2.0 * side, side], dtype=np.float32)
+    kernel = cv2.getGaussianKernel(2 * int(np.ceil(4.0 * sigma_px)) + 1, sigma_px, cv2.CV_32F)
+    return np.asarray(kernel, dtype=np.float32).ravel()
 
 
 def _half(picture: Array) -> Levels:

@@ -24,10 +24,12 @@ from service.core.vision.sampling import FloatImage
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
+__all__ = ["BoardKind", "LiveDetection", "LiveWorkspace", "detect_live"]
+
 LIVE_SCALE = 2  # full-size pixels per pixel in which a live frame is looked at
 GRIDS = 2  # linked grids that are looked into, the one with most contrast first
 ROUNDS = 1  # of growth, by a line on each side
-DISC_PX = 2
+DISC_PX = 2  # of the last saddle fit
 NO_GRID = CornerGrid(np.zeros((0, 0, 2)), 0)
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
 
