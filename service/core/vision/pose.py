@@ -17,6 +17,7 @@ from service.core.vision.transforms import Array, Pose, angle_between, rotation_
 CORNERS_NEEDED = 4
 ITERATIONS = 30
 SAME_POSE_RAD = 1e-2
+CLEARLY_WORSE = 4.0  # times the squared error of the best solution
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,7 @@ def _refine(
     Levenberg–Marquardt on all solutions at once; the rms is inf where no pose is feasible.
     """
     damping: Array = np.full(len(rotations), 1e-3)
+    settled = np.zeros(len(rotations), dtype=bool)
     cost, gradient, information = _normal_equations(intrinsics, rotations, translations, board, pixels)
     for _ in range(ITERATIONS):
         step = _damped_step(information, gradient, damping)
@@ -96,12 +98,15 @@ def _refine(
         better = moved[0] < cost
         rotations = np.where(better[:, None, None], moved_r, rotations)
         translations = np.where(better[:, None], moved_t, translations)
-        finished = np.all(moved[0] >= cost * (1.0 - 1e-12)) and np.all(damping < 1.0)
+        # Remembered, as the damping of a solution that has settled grows while the other still moves. One
+        # that is clearly worse is only compared with, and may creep for long.
+        slack = np.where(cost > CLEARLY_WORSE * cost.min(), 1e-4, 1e-12)
+        settled |= (moved[0] >= cost * (1.0 - slack)) & (damping < 1.0)
         cost = np.where(better, moved[0], cost)
         gradient = np.where(better[:, None], moved[1], gradient)
         information = np.where(better[:, None, None], moved[2], information)
         damping = np.where(better, damping * 0.1, damping * 10.0)
-        if finished:
+        if settled.all():
             break
     return rotations, translations, np.sqrt(cost / len(board))
 
