@@ -48,14 +48,19 @@ def refine_with_care(
     return refine_saddles(blurred, points, radii, tolerance_px=0.02)
 
 
-def complete_grid(
-    blurred: FloatImage, grid: CornerGrid, rounds: int, refine: Refiner = refine_with_care
-) -> CornerGrid:
+def complete_grid(blurred: FloatImage, grid: CornerGrid, rounds: int) -> CornerGrid:
     """Return the grid with proven corners only, filled and grown by up to `rounds` lines on each side."""
     grid = keep_squares(grid)
     if not grid.points.size:
         return grid
-    grid = keep_squares(_prove(blurred, grid, grid.points, refine))
+    proven = keep_squares(_prove(blurred, grid, grid.points, refine_with_care))
+    return keep_squares(grow_grid(blurred, proven, rounds))
+
+
+def grow_grid(
+    blurred: FloatImage, grid: CornerGrid, rounds: int, refine: Refiner = refine_with_care
+) -> CornerGrid:
+    """Return the grid with its gaps filled, and grown by up to `rounds` lines on each side."""
     for _ in range(rounds):
         if not grid.points.size:
             break
@@ -65,7 +70,7 @@ def complete_grid(
         if grown.known.sum() == grid.known.sum():
             break
         grid = trim(grown)
-    return keep_squares(grid)
+    return grid
 
 
 def predict(points: Array) -> Array:

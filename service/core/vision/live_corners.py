@@ -55,7 +55,7 @@ def smooth_frame(image: NDArray[np.uint8], workspace: LiveWorkspace) -> FloatIma
 def find_live_corners(blurred: FloatImage, workspace: LiveWorkspace) -> Corners:
     """Return corner candidates of a smoothed frame (h, w): the best of the 400 strongest saddle points."""
     peaks = _strongest(_response(blurred, workspace), workspace)
-    likely = peaks[np.any([_rough_ring(blurred, peaks, radius) for radius in RADII_PX], axis=0)]
+    likely = peaks[_has_rough_ring(blurred, peaks)]
     points, proven = refine_on_pixels(blurred, likely, np.full(len(likely), 2))
     points = points[proven]
     found: list[Corners] = []
@@ -124,19 +124,17 @@ def _strongest(response: FloatImage, workspace: LiveWorkspace) -> Array:
     return np.stack([x[inner], y[inner]], axis=-1).astype(np.float64)
 
 
-def _rough_ring(blurred: FloatImage, peaks: Array, radius: float) -> NDArray[np.bool_]:
-    """Return which whole-pixel peaks (n, 2) have about four changes on a ring of whole pixels."""
+def _has_rough_ring(blurred: FloatImage, peaks: Array) -> NDArray[np.bool_]:
+    """Return which whole-pixel peaks (n, 2) have about four changes on one of the rings of whole pixels."""
     angle = np.arange(ROUGH_SAMPLES) * (2.0 * np.pi / ROUGH_SAMPLES)
+    radii = np.array(RADII_PX)[:, None]
     height, width = blurred.shape
-    x = np.clip(
-        peaks[:, :1].astype(np.int64) + np.rint(radius * np.cos(angle)).astype(np.int64), 0, width - 1
-    )
-    y = np.clip(
-        peaks[:, 1:].astype(np.int64) + np.rint(radius * np.sin(angle)).astype(np.int64), 0, height - 1
-    )
+    at = peaks.astype(np.int64)[:, :, None, None]
+    x = np.clip(at[:, 0] + np.rint(radii * np.cos(angle)).astype(np.int64), 0, width - 1)
+    y = np.clip(at[:, 1] + np.rint(radii * np.sin(angle)).astype(np.int64), 0, height - 1)
     values = blurred.ravel()[y * width + x]
-    low, high = values.min(axis=1), values.max(axis=1)
-    above = values > (0.5 * (low + high))[:, None]
-    changes = (above != np.roll(above, 1, axis=1)).sum(axis=1)
-    likely: NDArray[np.bool_] = (changes >= 4) & (changes <= 6) & (high - low > LEAST_CONTRAST)
-    return likely
+    low, high = values.min(axis=-1), values.max(axis=-1)
+    above = values > (0.5 * (low + high))[..., None]
+    changes = np.count_nonzero(above[..., 1:] != above[..., :-1], axis=-1) + (above[..., 0] != above[..., -1])
+    good = (changes >= 4) & (changes <= 6) & (high - low > LEAST_CONTRAST)
+    return np.asarray(good.any(axis=-1))

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.board import is_larger, is_whole, order_corners
-from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
+from service.core.vision.corner_grid import CornerGrid, keep_squares, link_corners, number_corners
 from service.core.vision.detection import check_grey_image
-from service.core.vision.grid_growth import complete_grid
+from service.core.vision.grid_growth import grow_grid
 from service.core.vision.live_corners import LiveWorkspace, find_live_corners, refine_on_pixels, smooth_frame
 from service.core.vision.live_look import measure_look
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
@@ -91,7 +91,8 @@ def _find_grid(blurred: FloatImage, target: Chessboard, workspace: LiveWorkspace
     corners = find_live_corners(blurred, workspace)
     best = NO_GRID
     for grid in number_corners(corners, link_corners(corners))[:GRIDS]:
-        lines = whole_lines(complete_grid(blurred, grid, ROUNDS, refine_on_pixels))
+        grown = grow_grid(blurred, keep_squares(grid), ROUNDS, refine_on_pixels)
+        lines = whole_lines(keep_squares(grown))
         if is_larger(lines, target):
             lines = without_rims(blurred, lines)
         if is_whole(lines, target):
