@@ -3,6 +3,7 @@
 from datetime import datetime, timedelta
 from uuid import UUID
 
+from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from service.core.quality.gates import Verdict
@@ -21,7 +22,7 @@ PASS, MARGINAL, FAIL = Verdict.PASS, Verdict.MARGINAL, Verdict.FAIL
 
 
 class Line:
-    """Adds rows to a session; names of SKUs and stations are known once they were used."""
+    """Adds rows to a session. SKUs that are not there and stations are made when they are first named."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
@@ -69,11 +70,18 @@ class Line:
 
     def _revision(self, code: str) -> UUID:
         if code not in self._revisions:
-            sku = SkuRow(code=code, name=code, created_at=START)
-            row = SkuRevisionRow(sku_id=sku.id, number=1, document={}, created_at=START)
-            self._session.add_all([sku, row])
-            self._revisions[code] = row.id
+            self._revisions[code] = self._known_revision(code) or self._new_revision(code)
         return self._revisions[code]
+
+    def _known_revision(self, code: str) -> UUID | None:
+        query = select(SkuRevisionRow.id).join(SkuRow, SkuRow.id == SkuRevisionRow.sku_id)
+        return self._session.scalar(query.where(SkuRow.code == code))
+
+    def _new_revision(self, code: str) -> UUID:
+        sku = SkuRow(code=code, name=code, created_at=START)
+        row = SkuRevisionRow(sku_id=sku.id, number=1, document={}, created_at=START)
+        self._session.add_all([sku, row])
+        return row.id
 
     def _judge(self, run: RunRow, verdict: Verdict, failed: tuple[str, ...]) -> None:
         calibration = CalibrationRow(

@@ -32,6 +32,7 @@ class RunFilter:
     serial: str | None = None
     sku: str | None = None
     station: str | None = None
+    without_station: bool = False
     verdict: Verdict | None = None
     failed: str | None = None
     since: date | None = None
@@ -53,6 +54,8 @@ class RunFilter:
         if self.station is not None:
             stations = select(StationRow.id).where(StationRow.code == self.station)
             conditions.append(RunRow.station_id.in_(stations))
+        if self.without_station:
+            conditions.append(RunRow.station_id.is_(None))
         if self.verdict is not None:
             conditions.append(RunRow.verdict == self.verdict)
         return conditions

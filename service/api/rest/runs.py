@@ -102,6 +102,7 @@ def run_filter(
     serial: Annotated[str | None, Query(max_length=64, description="Only of exactly this serial.")] = None,
     sku: Annotated[Code | None, Query(description="Only of this SKU.")] = None,
     station: Annotated[Code | None, Query(description="Only at this station.")] = None,
+    without_station: Annotated[bool, Query(description="Only runs that named no station.")] = False,
     verdict: Annotated[Verdict | None, Query(description="Only with this verdict.")] = None,
     failed: Annotated[
         str | None, Query(max_length=64, description="Only where the measurement of this name failed.")
@@ -120,6 +121,7 @@ def run_filter(
         serial=serial,
         sku=sku,
         station=station,
+        without_station=without_station,
         verdict=verdict,
         failed=failed,
         since=since,

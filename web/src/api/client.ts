@@ -2,8 +2,20 @@
 import { reportReached, reportUnreached } from "./connection";
 import { dropRefusedKey, key } from "./key";
 import { meansUnreachable, mustAskForKey, problemFrom, RequestFailed, UNREACHABLE } from "./problem";
-import { ROOT, runsPath, type RunsQuery } from "./paths";
-import type { CaptureDetail, PageRunSummary, RunDetail, Vehicle } from "../generated/api";
+import { partPath, ROOT, runsPath, yieldPath, type RunsQuery } from "./paths";
+import type {
+  CaptureDetail,
+  PagePoseSetSummary,
+  PageRunSummary,
+  PageSku,
+  PageStationStanding,
+  PoseSet,
+  RevisionLimits,
+  RunDetail,
+  SkuDetail,
+  Vehicle,
+  Yield,
+} from "../generated/api";
 
 async function request(path: string, signal?: AbortSignal): Promise<Response> {
   let answer: Response;
@@ -51,6 +63,34 @@ export function getCapture(id: string, signal?: AbortSignal): Promise<CaptureDet
 
 export function getVehicle(serial: string, signal?: AbortSignal): Promise<Vehicle> {
   return getJson(`${ROOT}/vehicles/${encodeURIComponent(serial)}`, signal);
+}
+
+export function getStations(cursor: string | null, signal?: AbortSignal): Promise<PageStationStanding> {
+  return getJson(partPath("/statistics/stations", cursor), signal);
+}
+
+export function getSkus(cursor: string | null, signal?: AbortSignal): Promise<PageSku> {
+  return getJson(partPath("/skus", cursor), signal);
+}
+
+export function getSku(code: string, signal?: AbortSignal): Promise<SkuDetail> {
+  return getJson(`${ROOT}/skus/${encodeURIComponent(code)}`, signal);
+}
+
+export function getLimits(code: string, revision: number, signal?: AbortSignal): Promise<RevisionLimits> {
+  return getJson(`${ROOT}/skus/${encodeURIComponent(code)}/revisions/${revision}/limits`, signal);
+}
+
+export function getPoseSets(code: string, signal?: AbortSignal): Promise<PagePoseSetSummary> {
+  return getJson(partPath(`/skus/${encodeURIComponent(code)}/pose-sets`, null), signal);
+}
+
+export function getPoseSet(id: string, signal?: AbortSignal): Promise<PoseSet> {
+  return getJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}`, signal);
+}
+
+export function getYield(sku: string, station: string, signal?: AbortSignal): Promise<Yield> {
+  return getJson(yieldPath(sku, station), signal);
 }
 
 /** Images need the key too, so an <img src> cannot fetch them: they come as blobs. */

@@ -20,11 +20,11 @@ describe("walking pages by cursors", () => {
 
 describe("the address of a list of runs", () => {
   it("leaves out what is not asked for", () => {
-    expect(runsPath({ serial: "", cursor: null, limit: 50 })).toBe("/api/v1/runs?limit=50");
+    expect(runsPath({ filter: "", cursor: null, limit: 50 })).toBe("/api/v1/runs?limit=50");
   });
 
-  it("escapes serials and cursors", () => {
-    const path = runsPath({ serial: "A&B 1", cursor: "x=", limit: 5 });
-    expect(path).toBe("/api/v1/runs?limit=5&serial=A%26B+1&cursor=x%3D");
+  it("keeps the conditions as they are and escapes the cursor", () => {
+    const path = runsPath({ filter: "serial=A%26B+1", cursor: "x=", limit: 5 });
+    expect(path).toBe("/api/v1/runs?serial=A%26B+1&limit=5&cursor=x%3D");
   });
 });

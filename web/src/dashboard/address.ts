@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { parseRoute, type Route } from "./route";
 
-export const route = signal<Route>({ page: "runs", serial: "" });
+export const route = signal<Route>({ page: "runs", filter: {} });
 
 export function followAddress(): void {
   const read = (): void => {

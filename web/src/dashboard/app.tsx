@@ -7,12 +7,16 @@ import { route } from "./address";
 import type { Route } from "./route";
 import { RunPage } from "./run_page";
 import { RunsPage } from "./runs_page";
+import { SkuPage } from "./sku_page";
+import { SkusPage } from "./skus_page";
+import { StationsPage } from "./stations_page";
 import { VehiclePage } from "./vehicle_page";
+import { YieldPage } from "./yield_page";
 
 export function App(): JSX.Element {
   return (
     <>
-      <Header />
+      <Header page={route.value.page} />
       <OfflineBar />
       <main id="content" tabIndex={-1}>
         {key.value === null ? <KeyForm /> : <Page route={route.value} />}
@@ -28,6 +32,14 @@ function Page({ route: to }: { route: Route }): JSX.Element {
     case "vehicle":
       return <VehiclePage serial={to.serial} />;
     case "runs":
-      return <RunsPage serial={to.serial} />;
+      return <RunsPage filter={to.filter} />;
+    case "stations":
+      return <StationsPage />;
+    case "skus":
+      return <SkusPage />;
+    case "sku":
+      return <SkuPage key={to.code} code={to.code} poseSet={to.poseSet} />;
+    case "yield":
+      return <YieldPage sku={to.sku} station={to.station} />;
   }
 }

@@ -2,10 +2,17 @@ import { describe, expect, it } from "vitest";
 import { addressOf, parseRoute, type Route } from "./route";
 
 const ROUTES: Route[] = [
-  { page: "runs", serial: "" },
-  { page: "runs", serial: "VIN 1/2&3" },
+  { page: "runs", filter: {} },
+  { page: "runs", filter: { serial: "VIN 1/2&3" } },
+  { page: "runs", filter: { sku: "lens1", station: "cal-2", verdict: "FAIL", failed: "rms_px" } },
   { page: "run", id: "0198-7" },
   { page: "vehicle", serial: "VIN/ä 100%" },
+  { page: "stations" },
+  { page: "skus" },
+  { page: "sku", code: "lens1", poseSet: "" },
+  { page: "sku", code: "lens1", poseSet: "0198-7" },
+  { page: "yield", sku: "", station: "" },
+  { page: "yield", sku: "lens1", station: "cal1" },
 ];
 
 describe("addresses of pages", () => {
@@ -14,7 +21,7 @@ describe("addresses of pages", () => {
   });
 
   it.each(["", "#", "#/", "#/nowhere", "#/vehicles/", "#/runs/"])("lead to the runs from %j", (hash) => {
-    expect(parseRoute(hash)).toEqual({ page: "runs", serial: "" });
+    expect(parseRoute(hash)).toEqual({ page: "runs", filter: {} });
   });
 
   it("survive a broken escape", () => {

@@ -1,23 +1,63 @@
 // Addresses of the dashboard's pages. They live behind the hash, so the service needs to know one page only.
+import { filterFrom, queryOf, type RunFilter } from "./run_filter";
 
 export type Route =
-  { page: "runs"; serial: string } | { page: "run"; id: string } | { page: "vehicle"; serial: string };
+  | { page: "runs"; filter: RunFilter }
+  | { page: "run"; id: string }
+  | { page: "vehicle"; serial: string }
+  | { page: "stations" }
+  | { page: "skus" }
+  | { page: "sku"; code: string; poseSet: string }
+  | { page: "yield"; sku: string; station: string };
 
 export function parseRoute(hash: string): Route {
-  const [path = "", query = ""] = hash.replace(/^#\/?/, "").split("?");
-  const [page, ...rest] = path.split("/");
+  const [path = "", search = ""] = hash.replace(/^#\/?/, "").split("?");
+  const [page = "", ...rest] = path.split("/");
   const name = decode(rest.join("/"));
-  if (page === "runs" && name !== "") return { page: "run", id: name };
-  if (page === "vehicles" && name !== "") return { page: "vehicle", serial: name };
-  return { page: "runs", serial: new URLSearchParams(query).get("serial") ?? "" };
+  const query = new URLSearchParams(search);
+  return (name === "" ? listRoute(page, query) : oneRoute(page, name, query)) ?? runsRoute(query);
+}
+
+function runsRoute(query: URLSearchParams): Route {
+  return { page: "runs", filter: filterFrom(query) };
+}
+
+function listRoute(page: string, query: URLSearchParams): Route | null {
+  if (page === "skus" || page === "stations") return { page };
+  if (page !== "yield") return null;
+  return { page, sku: query.get("sku") ?? "", station: query.get("station") ?? "" };
+}
+
+function oneRoute(page: string, name: string, query: URLSearchParams): Route | null {
+  if (page === "runs") return { page: "run", id: name };
+  if (page === "vehicles") return { page: "vehicle", serial: name };
+  if (page === "skus") return { page: "sku", code: name, poseSet: query.get("pose_set") ?? "" };
+  return null;
 }
 
 export function addressOf(route: Route): string {
-  if (route.page === "run") return `#/runs/${encodeURIComponent(route.id)}`;
-  if (route.page === "vehicle") return `#/vehicles/${encodeURIComponent(route.serial)}`;
-  return route.serial === ""
-    ? "#/runs"
-    : `#/runs?${new URLSearchParams({ serial: route.serial }).toString()}`;
+  switch (route.page) {
+    case "run":
+      return `#/runs/${encodeURIComponent(route.id)}`;
+    case "vehicle":
+      return `#/vehicles/${encodeURIComponent(route.serial)}`;
+    case "sku":
+      return withQuery(`#/skus/${encodeURIComponent(route.code)}`, { pose_set: route.poseSet });
+    case "yield":
+      return withQuery("#/yield", { sku: route.sku, station: route.station });
+    case "runs": {
+      const query = queryOf(route.filter);
+      return query === "" ? "#/runs" : `#/runs?${query}`;
+    }
+    case "skus":
+    case "stations":
+      return `#/${route.page}`;
+  }
+}
+
+function withQuery(path: string, values: Record<string, string>): string {
+  const query = new URLSearchParams(Object.entries(values).filter(([, value]) => value !== ""));
+  return query.size === 0 ? path : `${path}?${query.toString()}`;
 }
 
 function decode(part: string): string {

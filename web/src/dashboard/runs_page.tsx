@@ -1,4 +1,4 @@
-// The list of runs, newest first: kept up to date by itself, searched by serial, walked by pages.
+// The list of runs, newest first: kept up to date by itself, narrowed by conditions, walked by pages.
 import { type JSX } from "preact";
 import { useCallback, useEffect, useState } from "preact/hooks";
 import { getRuns } from "../api/client";
@@ -10,6 +10,8 @@ import { clock } from "../format/times";
 import { Empty, Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
 import { addressOf } from "./route";
+import { RunConditions } from "./run_conditions";
+import { queryOf, withCondition, type RunFilter } from "./run_filter";
 import { RunsTable } from "./runs_table";
 import { useTitle } from "./use_title";
 
@@ -17,22 +19,23 @@ const PAGE_SIZE = 50;
 const REFRESH_MS = 3000;
 const refresh = (): number => REFRESH_MS;
 
-export function RunsPage({ serial }: { serial: string }): JSX.Element {
+export function RunsPage({ filter }: { filter: RunFilter }): JSX.Element {
   const say = words.value;
   useTitle(say.runs_title);
+  const query = queryOf(filter);
   const [walk, setWalk] = useState<Walk>(FIRST_PAGE);
-  useEffect(() => setWalk(FIRST_PAGE), [serial]);
+  useEffect(() => setWalk(FIRST_PAGE), [query]);
   const cursor = shownCursor(walk);
   const load = useCallback(
-    (signal: AbortSignal) => getRuns({ serial, cursor, limit: PAGE_SIZE }, signal),
-    [serial, cursor],
+    (signal: AbortSignal) => getRuns({ filter: query, cursor, limit: PAGE_SIZE }, signal),
+    [query, cursor],
   );
   const runs = useResource(load, refresh);
   return (
     <>
       <div class="page-head">
         <h1>{say.runs_title}</h1>
-        <SerialSearch serial={serial} />
+        <SerialSearch filter={filter} />
         {runs.state === "ready" && online.value && (
           <span class="live muted">
             <span class="live-dot" aria-hidden="true" />
@@ -40,29 +43,25 @@ export function RunsPage({ serial }: { serial: string }): JSX.Element {
           </span>
         )}
       </div>
+      <RunConditions filter={filter} />
       {runs.state === "loading" && <Loading />}
       {runs.state === "failed" && <ProblemNotice problem={runs.problem} />}
-      {runs.state === "ready" && <Runs page={runs.value} serial={serial} walk={walk} onWalk={setWalk} />}
+      {runs.state === "ready" && <Runs page={runs.value} filter={filter} walk={walk} onWalk={setWalk} />}
     </>
   );
 }
 
 interface RunsProps {
   page: PageRunSummary;
-  serial: string;
+  filter: RunFilter;
   walk: Walk;
   onWalk: (walk: Walk) => void;
 }
 
-function Runs({ page, serial, walk, onWalk }: RunsProps): JSX.Element {
+function Runs({ page, filter, walk, onWalk }: RunsProps): JSX.Element {
   const say = words.value;
   if (page.items.length === 0 && isFirst(walk)) {
-    if (serial === "") return <Empty title={say.runs_none} detail={say.runs_none_detail} />;
-    return (
-      <Empty title={say.runs_no_match(serial)} detail={say.runs_no_match_detail}>
-        <a href="#/runs">{say.runs_clear}</a>
-      </Empty>
-    );
+    return <NoRuns filter={filter} />;
   }
   return (
     <section class="panel" aria-label={say.runs_title}>
@@ -86,13 +85,31 @@ function Runs({ page, serial, walk, onWalk }: RunsProps): JSX.Element {
   );
 }
 
-function SerialSearch({ serial }: { serial: string }): JSX.Element {
+function NoRuns({ filter }: { filter: RunFilter }): JSX.Element {
   const say = words.value;
+  if (queryOf(filter) === "") return <Empty title={say.runs_none} detail={say.runs_none_detail} />;
+  const onlySerial = queryOf(withCondition(filter, "serial", "")) === "";
+  return (
+    <Empty
+      title={onlySerial ? say.runs_no_match(filter.serial ?? "") : say.runs_none_meet}
+      detail={onlySerial ? say.runs_no_match_detail : say.runs_none_meet_detail}
+    >
+      <a href="#/runs">{say.runs_clear}</a>
+    </Empty>
+  );
+}
+
+function SerialSearch({ filter }: { filter: RunFilter }): JSX.Element {
+  const say = words.value;
+  const serial = filter.serial ?? "";
   const [typed, setTyped] = useState(serial);
   useEffect(() => setTyped(serial), [serial]);
   const go = (event: SubmitEvent): void => {
     event.preventDefault();
-    window.location.hash = addressOf({ page: "runs", serial: typed.trim() });
+    window.location.hash = addressOf({
+      page: "runs",
+      filter: withCondition(filter, "serial", typed.trim()),
+    });
   };
   return (
     <form class="search" role="search" onSubmit={go}>
@@ -106,7 +123,6 @@ function SerialSearch({ serial }: { serial: string }): JSX.Element {
         autocomplete="off"
         onInput={(event) => setTyped(event.currentTarget.value)}
       />
-      {serial !== "" && <a href="#/runs">{say.runs_clear}</a>}
     </form>
   );
 }

@@ -1,7 +1,8 @@
 // Residual vectors where they are in the image: shows what was covered, and a lens model that does not bend enough.
 import type { Colours } from "./drawing";
+import { drawFrame, imageToCanvas } from "./image_frame";
 import { arrowEnd, type CornerResidual } from "./residuals";
-import { fit, toCanvas, type Point, type Size } from "./viewport";
+import type { Point, Size } from "./viewport";
 
 export interface FieldScene {
   residuals: readonly CornerResidual[];
@@ -10,44 +11,16 @@ export interface FieldScene {
   gain: number;
 }
 
-const MARGIN = 1;
-
 export function drawField(
   context: CanvasRenderingContext2D,
   size: Size,
   scene: FieldScene,
   colours: Colours,
 ): void {
-  const view = fit(scene.imageSize, { width: size.width - 2 * MARGIN, height: size.height - 2 * MARGIN });
-  const at = (point: Point): Point => {
-    const { x, y } = toCanvas(view, point);
-    return { x: x + MARGIN, y: y + MARGIN };
-  };
+  const at = imageToCanvas(scene.imageSize, size);
   drawFrame(context, scene.imageSize, at, colours);
   drawVectors(context, scene.residuals, scene.gain, at, colours("plot-point"), 1);
   drawVectors(context, scene.chosen, scene.gain, at, colours("plot-chosen"), 2);
-}
-
-function drawFrame(
-  context: CanvasRenderingContext2D,
-  image: Size,
-  at: (point: Point) => Point,
-  colours: Colours,
-): void {
-  const from = at({ x: -0.5, y: -0.5 });
-  const to = at({ x: image.width - 0.5, y: image.height - 0.5 });
-  context.fillStyle = colours("sunken");
-  context.fillRect(from.x, from.y, to.x - from.x, to.y - from.y);
-  context.lineWidth = 1;
-  context.strokeStyle = colours("plot-grid");
-  for (let part = 1; part < 4; part += 1) {
-    const x = from.x + ((to.x - from.x) * part) / 4;
-    const y = from.y + ((to.y - from.y) * part) / 4;
-    context.strokeRect(x, from.y, 0, to.y - from.y);
-    context.strokeRect(from.x, y, to.x - from.x, 0);
-  }
-  context.strokeStyle = colours("line-strong");
-  context.strokeRect(from.x, from.y, to.x - from.x, to.y - from.y);
 }
 
 function drawVectors(

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { when } from "./times";
+import { longDay, shortDay, when } from "./times";
 
 describe("times", () => {
   const now = new Date(2026, 10, 22, 15, 0);
@@ -14,5 +14,10 @@ describe("times", () => {
 
   it("just after midnight are not written as hour 24", () => {
     expect(when(new Date(2026, 10, 22, 0, 5).toISOString(), now, "en")).toBe("00:05");
+  });
+
+  it("of the service's calendar are the same day in every zone", () => {
+    expect(shortDay("2026-03-01", "en-GB")).toBe("01 Mar");
+    expect(longDay("2026-03-01", "en-GB")).toBe("Sun, 01 Mar 2026");
   });
 });

@@ -4,8 +4,12 @@ import { language, type Language } from "../words/language";
 /** Of the English orders of day and month only the one that cannot be misread. */
 const LOCALES: Readonly<Record<Language, string>> = { en: "en-GB", de: "de-DE" };
 
+export function localeOf(spoken: Language): string {
+  return LOCALES[spoken];
+}
+
 function spoken(): string {
-  return LOCALES[language.value];
+  return localeOf(language.value);
 }
 
 export function when(iso: string, now: Date = new Date(), locale: string = spoken()): string {
@@ -34,5 +38,24 @@ export function clock(time: Date, locale: string = spoken()): string {
     minute: "2-digit",
     second: "2-digit",
     hourCycle: "h23",
+  });
+}
+
+/** A day of the service's calendar, which is UTC, such as 2026-03-01: the same day in every zone. */
+export function longDay(day: string, locale: string = spoken()): string {
+  return new Date(`${day}T00:00:00Z`).toLocaleDateString(locale, {
+    weekday: "short",
+    day: "2-digit",
+    month: "short",
+    year: "numeric",
+    timeZone: "UTC",
+  });
+}
+
+export function shortDay(day: string, locale: string = spoken()): string {
+  return new Date(`${day}T00:00:00Z`).toLocaleDateString(locale, {
+    day: "2-digit",
+    month: "short",
+    timeZone: "UTC",
   });
 }

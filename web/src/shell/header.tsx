@@ -6,7 +6,8 @@ import { chooseTheme, theme, THEMES, type Theme } from "../look/theme";
 import { chooseLanguage, isLanguage, language, LANGUAGES, words } from "../words/language";
 import type { Words } from "../words/en";
 
-export function Header(): JSX.Element {
+/** `page` is the page on show, as the addresses name it. */
+export function Header({ page }: { page: string }): JSX.Element {
   const say = words.value;
   return (
     <header class="bar">
@@ -19,7 +20,11 @@ export function Header(): JSX.Element {
         <span class="brand-tagline">{say.tagline}</span>
       </a>
       <nav aria-label={say.product}>
-        <a href="#/runs">{say.nav_runs}</a>
+        {linksOf(say).map(({ name, href, pages }) => (
+          <a key={href} href={href} aria-current={pages.includes(page) ? "page" : undefined}>
+            {name}
+          </a>
+        ))}
         <a href="/api/docs">{say.api_docs}</a>
       </nav>
       <div class="bar-controls">
@@ -33,6 +38,22 @@ export function Header(): JSX.Element {
       </div>
     </header>
   );
+}
+
+interface Link {
+  name: string;
+  href: string;
+  /** Pages that belong under the link. */
+  pages: readonly string[];
+}
+
+function linksOf(say: Words): Link[] {
+  return [
+    { name: say.nav_stations, href: "#/stations", pages: ["stations"] },
+    { name: say.nav_runs, href: "#/runs", pages: ["runs", "run", "vehicle"] },
+    { name: say.nav_skus, href: "#/skus", pages: ["skus", "sku"] },
+    { name: say.nav_yield, href: "#/yield", pages: ["yield"] },
+  ];
 }
 
 function focusContent(event: MouseEvent): void {

@@ -217,7 +217,6 @@ export const de: Words = {
   state_draft: "Entwurf",
   state_published: "veröffentlicht",
   state_retired: "abgelöst",
-  as_default: "Vorgabe",
 
   nominal_title: "Nennwerte der Kamera",
   nominal_value: "Nennwert",

@@ -215,7 +215,6 @@ export const en = {
   state_draft: "draft",
   state_published: "published",
   state_retired: "retired",
-  as_default: "default",
 
   nominal_title: "Nominal camera",
   nominal_value: "Nominal",

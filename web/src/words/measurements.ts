@@ -14,6 +14,10 @@ const NAMES: Readonly<Record<string, Name>> = {
   edge_width_px: { en: "Edge width 10–90 %", de: "Kantenbreite 10–90 %" },
   quadrant_ratio: { en: "Worst quadrant / centre", de: "Schlechtester Quadrant / Mitte" },
   missing_poses: { en: "Poses not taken", de: "Fehlende Posen" },
+  match_share: {
+    en: "Match to the asked pose / image width",
+    de: "Abweichung von der Sollpose / Bildbreite",
+  },
   match_px: { en: "Match to the asked pose", de: "Abweichung von der Sollpose" },
   view_separation_px: { en: "Distance of nearest views", de: "Abstand der nächsten Ansichten" },
   image_coverage: { en: "Coverage of the image", de: "Abdeckung des Bildes" },
