@@ -57,11 +57,16 @@ class Serving:
         self._server = None
 
 
-def prepare_service(directory: Path) -> Serving:
+def prepare_service(directory: Path, virtual_speed: float = 1.0) -> Serving:
     """Return a service on a fresh data directory, not yet started."""
     settings = Settings(data_dir=directory).in_directory(directory)
     settings = settings.model_copy(
-        update={"host": "127.0.0.1", "port": _free_port(), "shutdown_grace_s": 2.0}
+        update={
+            "host": "127.0.0.1",
+            "port": _free_port(),
+            "shutdown_grace_s": 2.0,
+            "virtual_speed": virtual_speed,
+        }
     )
     database = open_database(settings)
     with database.write() as session:

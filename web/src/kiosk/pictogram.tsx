@@ -29,7 +29,7 @@ function Side({ view }: { view: SideView }): JSX.Element {
       {view.view === "side" ? <Camera x={14} y={60} turn={0} /> : <Camera x={80} y={106} turn={-90} />}
       <Line points={view.wanted} class="p-wanted" />
       <Line points={view.present} class="p-seen" />
-      <Bend from={from} to={to} isClockwise={isClockwise} radius={58} />
+      <Bend from={from} to={to} isClockwise={isClockwise} radius={49} />
     </>
   );
 }
@@ -70,7 +70,7 @@ export function PictogramHead(): JSX.Element {
   return (
     <svg class="visually-hidden" aria-hidden="true">
       <defs>
-        <marker id="p-head" viewBox="-6 -6 12 12" markerWidth="3.4" markerHeight="3.4" orient="auto">
+        <marker id="p-head" viewBox="-6 -6 12 12" markerWidth="2.7" markerHeight="2.7" orient="auto">
           <path class="p-head" d="M-6 -6 L6 0 L-6 6 Z" />
         </marker>
       </defs>

@@ -3,6 +3,9 @@ import { type JSX } from "preact";
 import type { Run, WantedPose } from "../generated/protocol";
 import { words } from "../words/language";
 
+/** Up to so many have room for larger pictures. */
+const FEW = 12;
+
 interface Props {
   run: Run;
   isMirrored: boolean;
@@ -11,7 +14,7 @@ interface Props {
 
 export function PoseTiles({ run, isMirrored, onRetake }: Props): JSX.Element {
   return (
-    <ol class="tiles" aria-label={words.value.guide_poses}>
+    <ol class={`tiles ${run.poses.length <= FEW ? "tiles-few" : ""}`} aria-label={words.value.guide_poses}>
       {run.poses.map((pose, i) => (
         <Tile
           key={pose.pose_index}

@@ -30,16 +30,23 @@ describe("a scanner", () => {
 
   it("does not take up letters that were typed by hand before it", () => {
     const byHand = scanKey(NO_SCAN, "x", 0).scan;
-    let { scan } = scanKey(byHand, "A", 400);
-    for (const [i, key] of ["B", "1", "2"].entries()) ({ scan } = scanKey(scan, key, 410 + 10 * i));
+    let { scan } = scanKey(byHand, "A", 1400);
+    for (const [i, key] of ["B", "1", "2"].entries()) ({ scan } = scanKey(scan, key, 1410 + 10 * i));
 
-    expect(scanKey(scan, "Enter", 445).serial).toBe("AB12");
+    expect(scanKey(scan, "Enter", 1445).serial).toBe("AB12");
+  });
+
+  it("that was held up gives nothing: half a serial would be another vehicle's", () => {
+    let { scan } = scanKey(NO_SCAN, "V", 1000);
+    for (const [i, key] of Array.from("IN-0815").entries()) ({ scan } = scanKey(scan, key, 1200 + 10 * i));
+
+    expect(scanKey(scan, "Enter", 1275).serial).toBeNull();
   });
 
   it("is at work from its second letter on, so that a space in a serial captures nothing", () => {
-    expect(isScanning({ letters: "A", at_ms: 0 }, 10)).toBe(false);
-    expect(isScanning({ letters: "AB", at_ms: 0 }, 10)).toBe(true);
-    expect(isScanning({ letters: "AB", at_ms: 0 }, 200)).toBe(false);
+    expect(isScanning({ ...NO_SCAN, letters: "A", at_ms: 0 }, 10)).toBe(false);
+    expect(isScanning({ ...NO_SCAN, letters: "AB", at_ms: 0 }, 10)).toBe(true);
+    expect(isScanning({ ...NO_SCAN, letters: "AB", at_ms: 0 }, 200)).toBe(false);
   });
 
   it("needs a few letters: a foot switch that is Enter scans nothing", () => {

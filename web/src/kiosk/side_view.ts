@@ -13,11 +13,11 @@ export interface SideView {
 }
 
 const SIDE_CENTRE: Point = { x: 104, y: 60 };
-const TOP_CENTRE: Point = { x: 80, y: 42 };
-const HALF_BOARD = 50;
-const ARROW_RADIUS = HALF_BOARD + 8;
+const TOP_CENTRE: Point = { x: 80, y: 46 };
+const HALF_BOARD = 43;
+const ARROW_RADIUS = HALF_BOARD + 6;
 /** Smaller ways are drawn so large, larger ones so small, that the arrow can be read. */
-const LEAST_DEG = 16;
+const LEAST_DEG = 24;
 const MOST_DEG = 60;
 const STEEPEST_DEG = 62;
 

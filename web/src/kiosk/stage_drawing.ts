@@ -55,7 +55,6 @@ function drawPicture(context: CanvasRenderingContext2D, picture: StagePicture, v
 function drawScene(pen: Pen, scene: StageScene): void {
   drawSquares(pen, scene);
   drawBoards(pen, scene);
-  drawLoose(pen, scene.loose);
   if (scene.axis !== null) drawAxis(pen, scene.axis);
   for (const arrow of scene.arrows) drawArrow(pen, arrow);
   if (scene.isUpsideDown && scene.seen !== null) drawRound(pen, scene.seen.centre);
@@ -122,18 +121,13 @@ function drawFirstSquare(pen: Pen, seen: Outline, colour: string, isUrgent: bool
   pen.context.fill(dot);
 }
 
-function drawLoose(pen: Pen, loose: readonly Point[]): void {
-  pen.context.fillStyle = pen.colours("guide-seen");
-  for (const corner of loose) {
-    const dot = circle(pen.at(corner), 5 * pen.unit);
-    stroke(pen, dot, 1, pen.colours("mark-halo"));
-    pen.context.fill(dot);
-  }
-}
-
 function drawAxis(pen: Pen, axis: Arrow): void {
   pen.context.setLineDash([10 * pen.unit, 7 * pen.unit]);
-  stroke(pen, shapeOf(pen, [axis.from, axis.to]), 3, pen.colours("guide-move"));
+  const line = new Path2D();
+  const [from, to] = [pen.at(axis.from), pen.at(axis.to)];
+  line.moveTo(from.x, from.y);
+  line.lineTo(to.x, to.y);
+  stroke(pen, line, 3, pen.colours("guide-move"));
   pen.context.setLineDash([]);
 }
 

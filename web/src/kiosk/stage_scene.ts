@@ -7,8 +7,6 @@ import type { HintCode } from "./mirror";
 export interface StageScene {
   wanted: Outline | null;
   seen: Outline | null;
-  /** Corners of a board that is not wholly seen. */
-  loose: Point[];
   /** Light squares of the wanted board, and how strongly they show: they fade as the board comes near. */
   squares: Point[][];
   squaresAlpha: number;
@@ -43,14 +41,11 @@ function point([x, y]: Pair): Point {
 export function sceneOf(run: Pick<Run, "board" | "image_size">, live: State): StageScene {
   const { ghost, seen: found, hints } = live;
   const wanted = ghost === null ? null : outline(ghost.outline, ghost.corners, run.board);
-  const outer = found?.outline ?? null;
-  const corners = found?.corners ?? [];
-  const seen = outer === null ? null : outline(outer, corners, run.board);
+  const seen = found === null ? null : outline(found.outline, found.corners, run.board);
   const code = hints[0]?.code;
   return {
     wanted,
     seen,
-    loose: outer === null ? corners.map(point) : [],
     squares: ghost === null ? [] : lightSquares(ghost.corners.map(point), run.board),
     squaresAlpha: wanted === null ? 0 : squaresAlpha(wanted, seen),
     ...wayOf(code, seen, wanted, KEYSTONE_SHARE * run.image_size[1]),

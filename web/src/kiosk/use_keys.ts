@@ -11,6 +11,8 @@ export function useKeys(kiosk: Kiosk): void {
 
     const press = (event: KeyboardEvent): void => {
       kiosk.wakeSound();
+      // A field takes the letters itself, from a scanner as from hands, and shows what it took.
+      if (event.target instanceof HTMLInputElement) return;
       const isScan = isScanning(scan, event.timeStamp);
       const read = scanKey(scan, event.key, event.timeStamp);
       scan = read.scan;

@@ -20,7 +20,6 @@ export const deKiosk: KioskWords = {
   start_sku: "Kameratyp",
   start_no_sku: "Kein Kameratyp ist bereit",
   start_no_sku_detail: "Der Ingenieur gibt eine SKU und ihre Posen frei; dann erscheint sie hier.",
-  start_too_short: "Eine Seriennummer hat mindestens ein Zeichen. Etikett noch einmal scannen.",
 
   hint_move_left: "Nach *links*",
   hint_move_right: "Nach *rechts*",
@@ -36,7 +35,7 @@ export const deKiosk: KioskWords = {
   hint_rotate_counterclockwise: "*Gegen* den Uhrzeigersinn drehen",
   hint_turn_upside_down: "Target *auf den Kopf* stellen",
   hint_hold_still: "*Still* halten",
-  hint_hold: "*Halten* …",
+  hint_hold: "So *halten*",
   hint_show_board: "Der Kamera das *Target* zeigen",
   hint_show_whole_board: "Das *ganze* Target zeigen",
   hint_more_light: "Mehr *Licht*, bitte",

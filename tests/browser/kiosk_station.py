@@ -1,0 +1,86 @@
+"""Stations for kiosk tests: real service, simulated hands, small cameras; and what a person does there."""
+
+from collections.abc import Callable
+from typing import Any
+
+from playwright.sync_api import Locator, Page, expect
+
+from service.demo.customer import Customer
+from tests.browser.serving import Serving
+from tests.plant import SKU, poses_json
+
+# The hand may live faster than real time: a test waits for the page, not for the hand.
+SPEED = 4.0
+POSES = len(poses_json())
+# Nobody determines a focal length so well: every run ends with FAIL.
+IMPOSSIBLE = {**SKU, "code": "strict", "limits": {**SKU["limits"], "focal_sd_share": 1e-9}}
+A_RUN_MS = 150_000
+
+RunJson = dict[str, Any]
+
+
+def prepare_stations(serving: Serving) -> None:
+    """Publish a camera that passes and one that fails, and register stations for both."""
+    customer = Customer.of(serving.url, serving.key)
+    with customer.http:
+        for sku in (SKU, IMPOSSIBLE):
+            customer.describe_sku(sku)
+            asked = customer.ask(
+                "POST", f"/skus/{sku['code']}/revisions/1/pose-sets", json={"poses": poses_json()}
+            )
+            customer.ask("POST", f"/pose-sets/{asked['pose_set']['id']}/publish")
+        for code, source in (("line1", "virtual"), ("line2", "virtual"), ("own", "browser")):
+            customer.ask(
+                "POST", "/stations", json={"code": code, "name": f"Station {code}", "source": source}
+            )
+
+
+def stored_run(serving: Serving, serial: str) -> RunJson:
+    """The newest run of a serial, as the service has it stored."""
+    customer = Customer.of(serving.url, serving.key)
+    with customer.http:
+        return dict(customer.ask("GET", f"/vehicles/{serial}")["runs"][0])
+
+
+def open_kiosk(page: Page, serving: Serving, station: str = "line1") -> None:
+    """Open a station's kiosk and wait until it asks for a serial."""
+    page.goto(f"{serving.url}/kiosk?station={station}#key={serving.key}")
+    expect(page.get_by_label("Serial", exact=True)).to_be_focused()
+
+
+def scan(page: Page, serial: str, sku: str = "tiny") -> None:
+    """Choose the camera and give the serial as a scanner does: letters, then Enter."""
+    page.get_by_role("button", name=sku, exact=True).click()
+    page.get_by_label("Serial", exact=True).focus()
+    page.keyboard.type(serial)
+    page.keyboard.press("Enter")
+    expect(page.locator(".whose-serial")).to_have_text(serial)
+
+
+def taken(page: Page) -> int:
+    """How many poses the page shows as taken."""
+    return page.locator(".tile-taken").count()
+
+
+def wait_for_captures(page: Page, count: int) -> None:
+    """Wait until so many poses are taken."""
+    page.wait_for_function(
+        "n => document.querySelectorAll('.tile-taken').length >= n", arg=count, timeout=A_RUN_MS
+    )
+
+
+def verdict_of(page: Page) -> Locator:
+    """The verdict's screen, once it is there."""
+    screen = page.locator("[data-verdict]")
+    expect(screen).to_be_visible(timeout=A_RUN_MS)
+    return screen
+
+
+def wait_for_hint(page: Page, fits: Callable[[str], bool]) -> str:
+    """Wait for an instruction that fits, and return its code as the display shows it."""
+    for _ in range(2000):
+        code = page.evaluate("document.querySelector('.strip')?.dataset.hint ?? ''")
+        if fits(str(code)):
+            return str(code)
+        page.wait_for_timeout(40)
+    raise AssertionError("no such instruction came")
