@@ -6,13 +6,19 @@ import numpy as np
 import pytest
 
 from service.core.errors import FrameForgotten
+from service.core.guidance.actions import CaptureFrame, Frame
+from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import Hint, ShownHint
+from service.core.guidance.observation import Observation
+from service.core.guidance.session import GuidanceSettings, start_session, step
+from service.core.guidance.session_view import view
 from service.core.vision.detection import detect_target
 from service.core.vision.live_detection import detect_live
-from service.core.vision.transforms import Pose
-from service.simulator.frame_source import VirtualSource, make_virtual_source
+from service.core.vision.pose import estimate_pose
+from service.core.vision.transforms import Pose, angle_between
+from service.simulator.frame_source import LiveFrame, VirtualSource, make_virtual_source
 from service.simulator.live_renderer import LiveRenderer
-from service.simulator.operator import Hand
+from service.simulator.operator import Habits, Hand
 from service.simulator.renderer import PreparedScene, prepare
 from service.simulator.scene import production_scene, true_corners
 from tests.simulator.cameras import BOARD, LENS_1, centred_pose
@@ -97,3 +103,40 @@ def test_a_capture_does_not_change_the_frames_that_follow() -> None:
 def test_a_source_made_from_a_scene_shows_that_scene() -> None:
     source = make_virtual_source(SCENE, Carousel(), np.random.default_rng(1))
     np.testing.assert_array_equal(source.next_frame((), 0.05).image, _source().next_frame((), 0.05).image)
+
+
+def test_a_hand_that_obeys_the_hints_of_live_frames_brings_the_board_into_the_pose() -> None:
+    source = _source(Hand(BOARD, habits=Habits(lapses_per_s=0.0)))
+    settings = GuidanceSettings(LENS_1, BOARD, default_tolerances(LENS_1.image_size))
+    wanted = centred_pose(BOARD, (15, -20, 10), (0.06, -0.02, 0.45))
+    state = start_session([wanted])
+    captured = None
+    for _ in range(400):
+        frame = source.next_frame(view(state, settings).hints, 0.05)
+        state, effects = step(state, Frame(_observe(frame)), settings)
+        captured = next((effect.sequence for effect in effects if isinstance(effect, CaptureFrame)), None)
+        if captured is not None:
+            break
+    assert captured is not None
+    held = source.pose_of(captured)
+    assert np.degrees(angle_between(held.rotation, wanted.rotation)) < 12.0
+    outer = list(BOARD.outer_corners)
+    apart = true_corners(SCENE, held)[outer] - true_corners(SCENE, wanted)[outer]
+    assert np.linalg.norm(apart, axis=1).mean() < 0.03 * 1280
+
+
+def _observe(frame: LiveFrame) -> Observation:
+    found = detect_live(frame.image, BOARD, scale=frame.scale)
+    pose = None
+    if found.image_points is not None:
+        pose = estimate_pose(LENS_1, BOARD.object_points, found.image_points).pose
+    return Observation(
+        frame.at_s,
+        found.kind,
+        found.corners_seen,
+        pose,
+        found.image_points,
+        found.edge_width_px,
+        found.brightness,
+        frame.sequence,
+    )
