@@ -194,7 +194,7 @@ def test_pages_hold_in_german_in_the_dark_and_on_a_narrow_screen(
     go(page, plant, where)
     page.get_by_label("Language").select_option("de")
     page.get_by_role("button", name="Dunkel").click()
-    name = re.sub(r"[^a-z0-9]+", "-", where)
+    name = re.sub(r"[^a-z0-9]+", "-", where.lower())
     page.screenshot(path=shots / f"{name}-german-dark.png", full_page=True)
     assert page.evaluate(NAMELESS_CONTROLS) == []
     page.set_viewport_size({"width": 420, "height": 900})
@@ -211,8 +211,9 @@ def test_pages_without_anything_to_show_say_what_to_do(
     service = prepare_service(tmp_path)
     service.start()
     try:
+        go(page, service, "stations")
         for where, said in (("stations", "POST"), ("skus", "make demo"), ("yield", "simulated runs")):
-            go(page, service, where)
+            page.goto(f"{service.url}/#/{where}")
             expect(page.locator(".notice-empty")).to_contain_text(said)
         page.screenshot(path=shots / "yield-none.png")
         page.goto(f"{service.url}/#/skus/nothing")

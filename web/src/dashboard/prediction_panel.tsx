@@ -5,6 +5,7 @@ import { fixed, percent, plain, significant, withUnit } from "../format/numbers"
 import { exactly } from "../format/times";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
+import { provenanceName } from "../words/measurements";
 import { Facts, type Fact } from "./facts";
 
 const PIXEL_PARAMETERS = new Set(["fx", "fy", "cx", "cy"]);
@@ -75,7 +76,7 @@ function promised({ mapping, norm_px, condition, diversity }: Prediction, say: W
       value: `${fixed(mapping.mean_px, 3)} / ${fixed(mapping.worst_px, 3)} px`,
     },
     { name: say.fact_norm, note: say.fact_norm_note, value: withUnit(fixed(norm_px, 3), "px") },
-    { name: say.fact_condition, value: condition.toExponential(1) },
+    { name: say.fact_condition, value: significant(condition) },
     { name: say.fact_coverage, value: percent(diversity.coverage) },
     {
       name: say.fact_spread,
@@ -88,11 +89,16 @@ function promised({ mapping, norm_px, condition, diversity }: Prediction, say: W
 function origin(set: PoseSet, say: Words): Fact[] {
   return [
     ...Object.entries(set.provenance).map(([name, value]) => ({
-      name: name.replaceAll("_", " "),
-      value: typeof value === "string" ? value : JSON.stringify(value),
+      name: provenanceName(name, say),
+      value: provenanceText(value),
     })),
     { name: say.col_created, value: exactly(set.created_at) },
-    ...(set.published_at === null ? [] : [{ name: say.state_published, value: exactly(set.published_at) }]),
-    { name: "id", value: set.id },
+    ...(set.published_at === null ? [] : [{ name: say.set_published, value: exactly(set.published_at) }]),
+    { name: "Id", value: set.id },
   ];
+}
+
+function provenanceText(value: unknown): string {
+  if (typeof value === "string") return value;
+  return typeof value === "number" ? plain(value) : JSON.stringify(value);
 }

@@ -4,7 +4,10 @@ import { fixed } from "../format/numbers";
 import { words } from "../words/language";
 import { addressOf } from "./route";
 import type { RunFilter } from "./run_filter";
+import { StandingTag } from "./runs_table";
 import { firstPassYield, runsOf, type Sums } from "./yield_sums";
+
+const VERDICTS = ["PASS", "MARGINAL", "FAIL"] as const;
 
 export interface YieldRow {
   name: string;
@@ -42,15 +45,11 @@ export function YieldTable({ id, title, what, rows }: Props): JSX.Element {
               {say.yield_of_first}
             </th>
             <th scope="col" class="wide-only" aria-hidden="true" />
-            <th scope="col" class="number">
-              {say.verdict_PASS}
-            </th>
-            <th scope="col" class="number">
-              {say.verdict_MARGINAL}
-            </th>
-            <th scope="col" class="number">
-              {say.verdict_FAIL}
-            </th>
+            {VERDICTS.map((verdict) => (
+              <th key={verdict} scope="col" class="number">
+                <StandingTag standing={verdict} />
+              </th>
+            ))}
           </tr>
         </thead>
         <tbody>

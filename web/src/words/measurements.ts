@@ -64,3 +64,8 @@ export function purposeName(purpose: string, words: Words): string {
   const text: unknown = (words as Record<string, unknown>)[`purpose_${purpose}`];
   return typeof text === "string" ? text : purpose;
 }
+
+export function provenanceName(name: string, words: Words): string {
+  const text: unknown = (words as Record<string, unknown>)[`provenance_${name}`];
+  return typeof text === "string" ? text : name.replaceAll("_", " ");
+}
