@@ -1,4 +1,4 @@
-"""A board held by its lower edge: how it moves when the hand moves it. Not here: which way a hand wants it."""
+"""A board held by its lower edge: how it moves when the hand moves it. Not here: which way."""
 
 from dataclasses import dataclass
 

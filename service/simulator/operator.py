@@ -23,7 +23,7 @@ FLIP_ERROR_RAD: Final = float(np.deg2rad(8.0))
 LAPSE_S: Final = 1.0
 LOWERING_M_S: Final = 0.5
 HOMING_S: Final = 0.2  # the last part of the way home takes about so long
-CAREFUL: Final = 0.4  # of full speed, where only a part of the board is missing
+CAREFUL: Final = 0.25  # of full speed, where only a part of the board is missing
 SHIFTS_ONLY: Final = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 MIRROR: Final = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
 
@@ -97,7 +97,7 @@ class Hand:
         while self._read and self._read[0][0] <= self._now_s:
             arrived = self._read.popleft()[1]
             if _shows(arrived, Hint.SHOW_WHOLE_BOARD) and not _shows(self._obeyed, Hint.SHOW_WHOLE_BOARD):
-                self._steering.startle()
+                self._steering.startle(self._obeyed)
             self._obeyed = arrived
 
     def _decide(self, dt_s: float, rng: np.random.Generator) -> Array:
@@ -111,9 +111,9 @@ class Hand:
         if _shows(self._obeyed, Hint.SHOW_BOARD):
             return self._homewards(1.0)
         if _shows(self._obeyed, Hint.SHOW_WHOLE_BOARD):
-            return self._homewards(CAREFUL) * SHIFTS_ONLY
+            return np.asarray(self._homewards(CAREFUL) * SHIFTS_ONLY, dtype=np.float64)
         speeds = np.repeat([self._habits.speed_m_s, self._habits.turn_rad_s], 3)
-        paces = self._steering.paces(self._obeyed, self._now_s, dt_s)
+        paces = self._steering.paces(self._obeyed, dt_s)
         # Before a mirror's screen the hand goes where the board in the mirror has to go.
         return np.asarray(paces * speeds * (MIRROR if self._habits.mirrored else 1.0), dtype=np.float64)
 

@@ -1,4 +1,4 @@
-"""How a hand turns movement hints into a pace on each of its six axes. Not here: reaction, inertia, tremor."""
+"""How a hand turns movement hints into a pace on each of its six axes. Not here: reaction and inertia."""
 
 from typing import Final
 
@@ -9,8 +9,10 @@ from service.core.vision.transforms import Array
 
 MOVES: Final = {pair[i]: (axis, (1.0, -1.0)[i]) for axis, pair in enumerate(DIRECTIONS) for i in range(2)}
 SLOWEST: Final = 0.2
-CONFIDENT_AFTER_S: Final = 0.6
-DOUBLED_WITHIN_S: Final = 0.6
+SLOWER: Final = 0.6
+FAR: Final = 1.0  # an amount at which care is not needed yet
+FAR_PACE: Final = 0.5
+DOUBLED_WITHIN_S: Final = 2.5
 
 
 class Steering:
@@ -22,26 +24,29 @@ class Steering:
     def __init__(self) -> None:
         self._pace: Array = np.ones(6)
         self._sense: Array = np.zeros(6)
-        self._turned_s: Array = np.full(6, -np.inf)
 
-    def paces(self, hints: tuple[ShownHint, ...], now_s: float, dt_s: float) -> Array:
+    def paces(self, hints: tuple[ShownHint, ...], dt_s: float) -> Array:
         """Return the paces (6,), −1…1: right, down, closer, tilt, turn, roll as in PoseDifference."""
         wanted = np.zeros(6)
         for hint in hints:
             if hint.code in MOVES:
                 axis, sense = MOVES[hint.code]
-                self._heed(axis, sense, now_s, dt_s)
+                self._heed(axis, sense, hint.amount, dt_s)
                 wanted[axis] = sense * hint.amount * self._pace[axis]
         return wanted
 
-    def startle(self) -> None:
-        """Halve the pace on every axis: the board went out of the picture."""
-        self._pace = np.maximum(SLOWEST, 0.5 * self._pace)
+    def startle(self, hints: tuple[ShownHint, ...]) -> None:
+        """Slow down what these hints asked for: it led out of the picture."""
+        for axis in {MOVES[hint.code][0] for hint in hints if hint.code in MOVES}:
+            self._slow_down(axis)
 
-    def _heed(self, axis: int, sense: float, now_s: float, dt_s: float) -> None:
+    def _heed(self, axis: int, sense: float, amount: float, dt_s: float) -> None:
         if sense == -self._sense[axis]:
-            self._pace[axis] = max(SLOWEST, 0.5 * self._pace[axis])
-            self._turned_s[axis] = now_s
-        elif now_s - self._turned_s[axis] > CONFIDENT_AFTER_S:
-            self._pace[axis] = min(1.0, self._pace[axis] * 2.0 ** (dt_s / DOUBLED_WITHIN_S))
+            self._slow_down(axis)
+        self._pace[axis] = min(1.0, self._pace[axis] * 2.0 ** (dt_s / DOUBLED_WITHIN_S))
+        if amount >= FAR:
+            self._pace[axis] = max(FAR_PACE, self._pace[axis])
         self._sense[axis] = sense
+
+    def _slow_down(self, axis: int) -> None:
+        self._pace[axis] = max(SLOWEST, SLOWER * self._pace[axis])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project, project_camera_points
 from service.core.vision.target import Chessboard
-from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector, stack_poses
+from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
 # A board whose x axis points elsewhere by more than this is better turned round than rotated.
 UPSIDE_DOWN_RAD: Final = float(np.deg2rad(120.0))
@@ -73,7 +73,7 @@ class PoseDifference:
     corner_px: float
     is_upside_down: bool
     effects_px: tuple[float, float, float, float, float, float]
-    leads_out: tuple[bool, bool, bool, bool, bool, bool] = (False,) * 6
+    leads_out: tuple[bool, bool, bool, bool, bool, bool] = (False, False, False, False, False, False)
 
 
 def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
@@ -84,18 +84,20 @@ def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
 
 def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Chessboard) -> PoseDifference:
     """Return how the seen board must move to reach the expected pose; both poses before the camera."""
-    wanted, found = _at_centre(expected, target), _at_centre(seen, target)
-    pixels = project_camera_points(intrinsics, np.array([wanted.tvec, found.tvec]))
+    R, R_seen = expected.rotation, seen.rotation
+    wanted, found = R @ target.centre + expected.tvec, R_seen @ target.centre + seen.tvec
+    pixels = project_camera_points(intrinsics, np.array([wanted, found]))
     right, down = (float(way) for way in pixels[0] - pixels[1])
-    closer = float(found.tvec[2] / wanted.tvec[2] - 1.0)
-    turns = rotation_vector(wanted.rotation @ found.rotation.T)
+    closer = float(found[2] / wanted[2] - 1.0)
+    turns = rotation_vector(R @ R_seen.T)
     tilt, turn, roll = (float(angle) for angle in turns)
+    shift = found[2] * np.array([right, down]) / np.diag(intrinsics.camera_matrix)[:2]
+    rotations, centres = _variants((R, wanted), (R_seen, found), turns, closer, shift)
     outer = target.object_points[list(target.outer_corners)] - target.centre
-    off = _spoilt(wanted, turns, closer)
-    mended = _mended(found, turns, closer, (right, down) / np.diag(intrinsics.camera_matrix)[:2])
-    corners = _project_all(intrinsics, [wanted, found, *off, *mended], outer)
+    corners = project(intrinsics, rotations, centres, outer)
     distances = np.nan_to_num(np.linalg.norm(corners[1:6] - corners[0], axis=-1), nan=UNSEEN_PX).mean(axis=-1)
-    corner_px, *effects_px = (float(distance) for distance in distances)
+    corner_px, closer_px, tilt_px, turn_px, roll_px = (float(distance) for distance in distances)
+    out = [bool(leads) for leads in ~_are_inside(corners[6:], intrinsics.image_size)]
     return PoseDifference(
         right_px=right,
         down_px=down,
@@ -104,9 +106,9 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Che
         turn_rad=turn,
         roll_rad=roll,
         corner_px=corner_px,
-        is_upside_down=_axis_angle(wanted.rotation, found.rotation) > UPSIDE_DOWN_RAD,
-        effects_px=(abs(right), abs(down), *effects_px),
-        leads_out=tuple(~_are_inside(corners[6:], intrinsics.image_size)),
+        is_upside_down=_axis_angle(R, R_seen) > UPSIDE_DOWN_RAD,
+        effects_px=(abs(right), abs(down), closer_px, tilt_px, turn_px, roll_px),
+        leads_out=(out[0], out[1], out[2], out[3], out[4], out[5]),
     )
 
 
@@ -136,32 +138,23 @@ def _match_errors(difference: PoseDifference, tolerances: Tolerances) -> tuple[f
     )
 
 
-def _at_centre(pose: Pose, target: Chessboard) -> Pose:
-    """Return the pose of the board's centre."""
-    return Pose(pose.rvec, pose.rotation @ target.centre + pose.tvec)
+def _variants(
+    wanted: tuple[Array, Array], found: tuple[Array, Array], turns: Array, closer: float, shift: Array
+) -> tuple[Array, Array]:
+    """Return rotations (12, 3, 3) and centres (12, 3) m of the boards whose corners tell something.
 
-
-def _spoilt(wanted: Pose, turns: Array, closer: float) -> list[Pose]:
-    """Return the expected pose of the centre with one error each: closer, tilt, turn, roll."""
-    R, centre = wanted.rotation, wanted.tvec
-    turned = [Pose(rotation_vector(S @ R), centre) for S in rotation_matrix(-np.diag(turns))]
-    return [Pose(wanted.rvec, centre * (1.0 + closer)), *turned]
-
-
-def _mended(found: Pose, turns: Array, closer: float, shift: Array) -> list[Pose]:
-    """Return the seen pose of the centre with one error less each, in the order of PoseDifference.
-
-    shift: (2,), of the centre in the ideal image plane, nearly.
+    The expected board and the seen one; the expected one spoilt by one error each: closer, tilt, turn, roll;
+    the seen one with one error less each, in the order of PoseDifference. shift: (2,) m, nearly.
     """
-    R, centre = found.rotation, found.tvec
-    shifted = [Pose(found.rvec, centre + centre[2] * shift[i] * np.eye(3)[i]) for i in range(2)]
-    turned = [Pose(rotation_vector(S @ R), centre) for S in rotation_matrix(np.diag(turns))]
-    return [*shifted, Pose(found.rvec, centre / (1.0 + closer)), *turned]
-
-
-def _project_all(intrinsics: Intrinsics, poses: list[Pose], points: Array) -> Array:
-    """Return points (n, 3) m as they are seen (poses, n, 2) px."""
-    return project(intrinsics, *stack_poses(poses), points)
+    (R, centre), (R_seen, centre_seen) = wanted, found
+    singles = rotation_matrix(np.diag(turns))
+    spoilt, mended = np.swapaxes(singles, -1, -2) @ R, singles @ R_seen
+    rotations = np.concatenate([[R, R_seen, R], spoilt, [R_seen] * 3, mended])
+    there, here = np.tile(centre, (3, 1)), np.tile(centre_seen, (3, 1))
+    shifted = centre_seen + np.array([[shift[0], 0.0, 0.0], [0.0, shift[1], 0.0]])
+    nearer = [centre_seen / (1.0 + closer)]
+    centres = np.concatenate([[centre, centre_seen, centre * (1.0 + closer)], there, shifted, nearer, here])
+    return rotations, centres
 
 
 def _are_inside(corners: Array, image_size: tuple[int, int]) -> NDArray[np.bool_]:

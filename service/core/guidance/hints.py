@@ -61,6 +61,8 @@ MOST_HINTS: Final = 2
 EFFECT_SHARE: Final = 0.6
 # A hint that is being followed is kept until its error is within this share of its tolerance.
 KEPT_UNTIL: Final = 0.7
+# Less than this share of a tolerance is never worth a hint.
+WORTH_MENDING: Final = 0.3
 # Up to so many tolerances, so much is left to go.
 AMOUNTS: Final = ((2.0, 0.05), (4.0, 0.1), (8.0, 0.2), (16.0, 0.4), (float("inf"), 1.0))
 
@@ -80,8 +82,9 @@ def choose_hints(
     """Return at most two movements: those of the previous that are not done yet, then the largest errors.
 
     Errors are measured in units of their tolerances. What would take the board out of the picture as it is
-    held now waits until the other errors are mended: a board for the picture's corner is turned first. None where the pose matches; only TURN_UPSIDE_DOWN where
-    the board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
+    held now waits until the other errors are mended: a board for the picture's corner is turned first. None
+    where the pose matches; only TURN_UPSIDE_DOWN where the board is. Where no error alone exceeds its
+    tolerance and the corners do, the largest error is named.
     """
     if difference.is_upside_down:
         return (Hint.TURN_UPSIDE_DOWN,)
@@ -93,8 +96,10 @@ def choose_hints(
         max(errors, key=lambda h: errors[h])
     ]
     wary = dict(zip(errors, difference.leads_out, strict=True))
-    safe = [hint for hint in wanted if hint in previous or not wary[hint]]
-    ordered = sorted(safe or wanted, key=lambda hint: (_place(hint, previous), -errors[hint]))
+    safe = [hint for hint in wanted if not wary[hint]]
+    # Small errors that are safe to mend make room for large ones that are not.
+    room = [hint for hint in errors if not wary[hint] and errors[hint] > WORTH_MENDING]
+    ordered = sorted(safe or room or wanted, key=lambda hint: (_place(hint, previous), -errors[hint]))
     return tuple(ordered[:MOST_HINTS])
 
 
@@ -115,7 +120,7 @@ def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> 
         difference.roll_rad,
     )
     return {
-        pair[value < 0]: max(abs(value) / limit, effect / (EFFECT_SHARE * t.corner_px))
+        pair[int(value < 0)]: max(abs(value) / limit, effect / (EFFECT_SHARE * t.corner_px))
         for pair, value, limit, effect in zip(DIRECTIONS, values, limits, difference.effects_px, strict=True)
     }
 

@@ -1,0 +1,103 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from service.core.guidance.comparison import PoseDifference, default_tolerances
+from service.core.guidance.hints import (
+    DIRECTIONS,
+    Hint,
+    choose_hints,
+    coarse_amount,
+    mirror_hint,
+)
+
+TOLERANCES = default_tolerances((1280, 800))
+FIELDS = ("right_px", "down_px", "closer_share", "tilt_rad", "turn_rad", "roll_rad")
+
+
+def difference(**errors: float) -> PoseDifference:
+    right, down, closer, tilt, turn, roll = (errors.get(name, 0.0) for name in FIELDS)
+    none = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return PoseDifference(right, down, closer, tilt, turn, roll, errors.get("corner_px", 100.0), False, none)
+
+
+@pytest.mark.parametrize(
+    ("error", "hint"),
+    [
+        ({"right_px": 90.0}, Hint.MOVE_RIGHT),
+        ({"right_px": -90.0}, Hint.MOVE_LEFT),
+        ({"down_px": 90.0}, Hint.MOVE_DOWN),
+        ({"down_px": -90.0}, Hint.MOVE_UP),
+        ({"closer_share": 0.3}, Hint.MOVE_CLOSER),
+        ({"closer_share": -0.3}, Hint.MOVE_AWAY),
+        ({"tilt_rad": 0.5}, Hint.TILT_TOP_FORWARD),
+        ({"tilt_rad": -0.5}, Hint.TILT_TOP_BACK),
+        ({"turn_rad": 0.5}, Hint.TURN_LEFT_BACK),
+        ({"turn_rad": -0.5}, Hint.TURN_RIGHT_BACK),
+        ({"roll_rad": 0.5}, Hint.ROTATE_CLOCKWISE),
+        ({"roll_rad": -0.5}, Hint.ROTATE_COUNTERCLOCKWISE),
+    ],
+)
+def test_each_error_has_its_hint(error: dict[str, float], hint: Hint) -> None:
+    assert choose_hints(difference(**error), TOLERANCES, ()) == (hint,)
+
+
+def test_the_largest_error_in_units_of_its_tolerance_comes_first_and_two_are_named() -> None:
+    many = difference(right_px=60.0, tilt_rad=np.deg2rad(35.0), closer_share=0.2)
+    assert choose_hints(many, TOLERANCES, ()) == (Hint.TILT_TOP_FORWARD, Hint.MOVE_CLOSER)
+
+
+def test_a_hint_is_kept_until_its_error_is_within_the_tolerance() -> None:
+    previous = (Hint.MOVE_RIGHT,)
+    many = difference(right_px=40.0, tilt_rad=np.deg2rad(35.0))
+    assert choose_hints(many, TOLERANCES, previous)[0] == Hint.MOVE_RIGHT
+    assert choose_hints(replace(many, right_px=25.0), TOLERANCES, previous)[0] == Hint.MOVE_RIGHT
+    assert choose_hints(replace(many, right_px=20.0), TOLERANCES, previous) == (Hint.TILT_TOP_FORWARD,)
+    assert choose_hints(replace(many, right_px=25.0), TOLERANCES, ()) == (Hint.TILT_TOP_FORWARD,)
+
+
+def test_a_hint_that_went_too_far_is_not_kept_but_turned_round() -> None:
+    assert choose_hints(difference(right_px=-40.0), TOLERANCES, (Hint.MOVE_RIGHT,)) == (Hint.MOVE_LEFT,)
+
+
+def test_a_match_needs_no_movement_and_an_upside_down_board_only_one() -> None:
+    assert choose_hints(difference(corner_px=5.0), TOLERANCES, (Hint.MOVE_LEFT,)) == ()
+    upside_down = replace(difference(right_px=200.0, roll_rad=3.1), is_upside_down=True)
+    assert choose_hints(upside_down, TOLERANCES, (Hint.MOVE_RIGHT,)) == (Hint.TURN_UPSIDE_DOWN,)
+
+
+def test_small_errors_that_add_up_are_still_named() -> None:
+    small = difference(right_px=20.0, down_px=-22.0, corner_px=30.0)
+    assert choose_hints(small, TOLERANCES, ()) == (Hint.MOVE_UP,)
+
+
+def test_an_error_counts_by_what_it_does_to_the_corners_where_that_is_more() -> None:
+    near = replace(
+        difference(roll_rad=np.deg2rad(3.0), right_px=35.0), effects_px=(0.0, 0.0, 0.0, 0.0, 0.0, 40.0)
+    )
+    assert choose_hints(near, TOLERANCES, ())[0] == Hint.ROTATE_CLOCKWISE
+
+
+def test_what_would_take_the_board_out_of_the_picture_waits() -> None:
+    far = difference(right_px=-500.0, roll_rad=0.3)
+    blocked = replace(far, leads_out=(True, False, False, False, False, False))
+    assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_LEFT, Hint.ROTATE_CLOCKWISE)
+    assert choose_hints(blocked, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
+    stuck = replace(difference(right_px=-500.0), leads_out=blocked.leads_out)
+    assert choose_hints(stuck, TOLERANCES, ()) == (Hint.MOVE_LEFT,)
+
+
+def test_the_amount_is_coarse_and_falls_on_the_way() -> None:
+    amounts = [
+        coarse_amount(Hint.MOVE_RIGHT, difference(right_px=px), TOLERANCES) for px in (900, 300, 100, 35)
+    ]
+    assert amounts == sorted(amounts, reverse=True)
+    assert set(amounts) <= {0.05, 0.1, 0.2, 0.4, 1.0}
+    assert coarse_amount(Hint.HOLD, difference(), TOLERANCES) == 1.0
+
+
+def test_a_mirror_swaps_left_and_right_and_the_sense_of_rotation_and_nothing_else() -> None:
+    swapped = {hint for hint in Hint if mirror_hint(hint) != hint}
+    assert swapped == {*DIRECTIONS[0], *DIRECTIONS[4], *DIRECTIONS[5]}
+    assert all(mirror_hint(mirror_hint(hint)) == hint for hint in Hint)
