@@ -44,6 +44,10 @@ class Customer:
         self.ask("POST", "/skus", json=document)
         self.ask("POST", f"/skus/{document['code']}/revisions/1/publish")
 
+    def add_virtual_station(self, code: str, name: str) -> None:
+        """Register a station whose camera and hand are simulated."""
+        self.ask("POST", "/stations", json={"code": code, "name": name, "source": "virtual"})
+
     def plan_poses(self, code: str, progress: Callable[[float], None]) -> Json:
         """Let the service plan the poses of a SKU, publish the set and return it."""
         asked = self.ask("POST", f"/skus/{code}/revisions/1/pose-sets", json={"seed": 1})

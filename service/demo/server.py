@@ -30,12 +30,20 @@ class RunningService:
 
 
 @contextmanager
-def running_service(data_dir: Path, port: int) -> Iterator[RunningService]:
-    """Serve from a data directory until the block ends; port 0 takes a free one."""
+def running_service(data_dir: Path, port: int, virtual_speed: float = 1.0) -> Iterator[RunningService]:
+    """Serve from a data directory until the block ends; port 0 takes a free one.
+
+    virtual_speed: how much faster than real time virtual stations may be.
+    """
     port = port or _free_port()
     # The demo is the same on every machine: settings of a real service in this shell must not reach it.
     environment = {name: value for name, value in os.environ.items() if not name.startswith("DMSCAL_")}
-    environment |= {"DMSCAL_DATA_DIR": str(data_dir), "DMSCAL_PORT": str(port), "DMSCAL_LOG_LEVEL": "WARNING"}
+    environment |= {
+        "DMSCAL_DATA_DIR": str(data_dir),
+        "DMSCAL_PORT": str(port),
+        "DMSCAL_LOG_LEVEL": "WARNING",
+        "DMSCAL_VIRTUAL_SPEED": str(virtual_speed),
+    }
     with (data_dir / "service.log").open("wb") as log:
         _run("migrate", environment=environment)
         key = _run("keys", "add", "demo", "--role", "admin", environment=environment).strip().splitlines()[-1]

@@ -20,9 +20,13 @@ HAND = Mismatch(position_m=0.002, angle_rad=math.radians(0.7))
 
 def draw_vehicle(sku: Mapping[str, Any], rng: np.random.Generator) -> Intrinsics:
     """Return the true intrinsics of one camera of a SKU document."""
+    return draw_camera(nominal_camera(sku), Tolerance(), rng)
+
+
+def nominal_camera(sku: Mapping[str, Any]) -> Intrinsics:
+    """Return the intrinsics that a SKU document promises."""
     width, height = sku["image_size"]
-    nominal = Intrinsics.from_parameters(sku["lens"], sku["nominal"], (width, height))
-    return draw_camera(nominal, Tolerance(), rng)
+    return Intrinsics.from_parameters(sku["lens"], sku["nominal"], (width, height))
 
 
 def photograph(

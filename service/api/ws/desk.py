@@ -231,7 +231,11 @@ class Desk:
             if isinstance(one, StateView):
                 state = state_message(one)
                 for link in self._links:
-                    link.show(state, jpeg if self._is_shown_to(link) else None)
+                    if not self._is_shown_to(link):
+                        # It answers a frame of the kiosk's own camera, which waits for it.
+                        link.tell(state)
+                    elif jpeg is not None:
+                        link.show(state, jpeg)
             elif isinstance(one, WantedFrame):
                 self._want(one)
             else:

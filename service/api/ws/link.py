@@ -32,7 +32,7 @@ class Link:
         self.role, self.caller = role, caller
         self._socket = socket
         self._waiting: deque[Message] = deque()
-        self._newest: Message | None = None
+        self._newest: bytes | None = None
         self._credit = IN_FLIGHT
         self._something = asyncio.Event()
         self._is_too_slow = False
@@ -50,9 +50,9 @@ class Link:
             self._waiting.append(message.model_dump_json())
         self._something.set()
 
-    def show(self, state: State, jpeg: bytes | None) -> None:
-        """Send what a frame shows, with its picture if there is one; one that still waits is replaced."""
-        self._newest = state.model_dump_json() if jpeg is None else pack(state, jpeg)
+    def show(self, state: State, jpeg: bytes) -> None:
+        """Send what a frame shows, with its picture; one that still waits is replaced."""
+        self._newest = pack(state, jpeg)
         self._something.set()
 
     def acknowledge(self) -> None:
@@ -78,11 +78,10 @@ class Link:
         if self._waiting:
             return self._waiting.popleft()
         message = self._newest
-        if message is None or (isinstance(message, bytes) and self._credit == 0):
+        if message is None or self._credit == 0:
             return None
         self._newest = None
-        if isinstance(message, bytes):
-            self._credit -= 1
+        self._credit -= 1
         return message
 
     async def _send(self, message: Message) -> None:
