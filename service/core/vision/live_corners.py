@@ -25,7 +25,8 @@ CANDIDATES = 400
 BORDER_PX = 4
 ROUGH_SAMPLES = 16
 LARGEST_DISC_PX = 3
-PASSES = 2
+PASSES = 3
+SETTLED_PX = 0.8  # largest last step, from a whole pixel
 
 
 class LiveWorkspace:
@@ -71,7 +72,7 @@ def refine_on_pixels(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Return saddle points (n, 2) px near the given ones, and which of them (n,) are proven.
 
-    As `refine_saddles`, on the whole pixels around each point instead of values between them, at most twice,
+    As `refine_saddles`, on the whole pixels around each point instead of values between them, three times,
     and over discs of at most 3 px: a few hundredths of a pixel are left over.
     """
     refined, proven = np.array(points), np.zeros(len(points), dtype=bool)
@@ -87,15 +88,17 @@ def _refine_group(blurred: FloatImage, start: Array, radius: int) -> tuple[Array
     offsets, fit = disc_fit(radius)
     disc = (offsets[:, 1] * width + offsets[:, 0]).astype(np.int64)
     flat, last = blurred.ravel(), np.array([width - 1 - radius, height - 1 - radius])
-    points = start
+    points, size = start, np.zeros(len(start))
     proven = np.all((np.rint(start) >= radius) & (np.rint(start) <= last), axis=1)
     for _ in range(PASSES):
         centre = np.clip(np.rint(points), radius, last).astype(np.int64)
         values = flat[(centre[:, 1] * width + centre[:, 0])[:, None] + disc].astype(np.float64)
         step = saddle_of(values @ fit.T)
-        proven &= np.abs(step).max(axis=1) < radius
-        points = np.where(proven[:, None], centre + step, start)
-    return points, proven
+        size = np.abs(step).max(axis=1)
+        proven &= np.isfinite(size)
+        points = np.where(proven[:, None], centre + np.clip(step, -1.5, 1.5), start)
+    proven &= size < SETTLED_PX
+    return np.where(proven[:, None], points, start), proven
 
 
 def _response(blurred: FloatImage, workspace: LiveWorkspace) -> FloatImage:
