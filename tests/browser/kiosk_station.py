@@ -51,7 +51,7 @@ def open_kiosk(page: Page, serving: Serving, station: str = "line1") -> None:
 def scan(page: Page, serial: str, sku: str = "tiny") -> None:
     """Choose the camera and give the serial as a scanner does: letters, then Enter."""
     page.get_by_role("button", name=sku, exact=True).click()
-    page.get_by_label("Serial", exact=True).focus()
+    expect(page.get_by_label("Serial", exact=True)).to_be_focused()
     page.keyboard.type(serial)
     page.keyboard.press("Enter")
     expect(page.locator(".whose-serial")).to_have_text(serial)

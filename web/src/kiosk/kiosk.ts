@@ -81,9 +81,14 @@ export class Kiosk {
       if (run.serial !== serial) this.refuseScan(run.serial);
       return;
     }
-    if (verdict !== null) this.say({ type: "next_vehicle" });
+    const sku = this.sku.value;
+    if (sku === null && (welcome?.skus.length ?? 0) > 1) {
+      this.chime("refused");
+      this.tell({ code: "choose-sku", title: "", detail: "" });
+      return;
+    }
     this.chime("scanned");
-    const sku = this.sku.value ?? chosenSku(this.station, welcome?.skus ?? []);
+    if (verdict !== null) this.say({ type: "next_vehicle" });
     this.say({ type: "open_run", serial, sku });
   }
 
@@ -124,6 +129,7 @@ export class Kiosk {
 
   setSku(code: string): void {
     rememberSku(this.station, code);
+    this.readProblem();
     this.sku.value = code;
   }
 

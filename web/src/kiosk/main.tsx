@@ -4,6 +4,7 @@ import "../look/page.css";
 import "../look/notices.css";
 import "../look/kiosk.css";
 import "../look/kiosk_guide.css";
+import "../look/kiosk_pictograms.css";
 import "../look/kiosk_verdict.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";

@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
+import type { Told } from "./kiosk_state";
 import { problemText } from "./said";
 import { Switches } from "./switches";
 
@@ -26,7 +27,7 @@ export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
           <SerialForm kiosk={kiosk} say={say} />
         )}
         {skus.length > 1 && <SkuChoice kiosk={kiosk} skus={skus} say={say} />}
-        {problem !== null && <StartProblem kiosk={kiosk} say={say} />}
+        {problem !== null && <StartProblem told={problem} say={say} />}
       </section>
       <Switches kiosk={kiosk} />
     </main>
@@ -35,10 +36,9 @@ export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
 
 function SerialForm({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element {
   const [typed, setTyped] = useState("");
-  const mayStart = kiosk.sku.value !== null;
   const begin = (event: SubmitEvent): void => {
     event.preventDefault();
-    if (mayStart && typed.trim() !== "") kiosk.begin(typed.trim());
+    if (typed.trim() !== "") kiosk.begin(typed.trim());
   };
   return (
     <form class="serial-form" onSubmit={begin}>
@@ -56,7 +56,7 @@ function SerialForm({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element {
           ref={(input) => input?.focus()}
           onInput={(event) => setTyped(event.currentTarget.value)}
         />
-        <button type="submit" class="act act-primary" disabled={!mayStart || typed.trim() === ""}>
+        <button type="submit" class="act act-primary" disabled={typed.trim() === ""}>
           {say.start_go}
         </button>
       </div>
@@ -80,7 +80,10 @@ function SkuChoice({ kiosk, skus, say }: SkuProps): JSX.Element {
           type="button"
           class="act"
           aria-pressed={kiosk.sku.value === code}
-          onClick={() => kiosk.setSku(code)}
+          onClick={() => {
+            kiosk.setSku(code);
+            document.getElementById("serial")?.focus();
+          }}
         >
           {code}
         </button>
@@ -89,15 +92,13 @@ function SkuChoice({ kiosk, skus, say }: SkuProps): JSX.Element {
   );
 }
 
-function StartProblem({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element | null {
-  const { problem } = kiosk.state.value;
-  if (problem === null) return null;
-  const { title, detail, isTranslated } = problemText(problem, say);
+function StartProblem({ told, say }: { told: Told; say: Words }): JSX.Element {
+  const { title, detail, isTranslated } = problemText(told, say);
   return (
     <div
       class="start-problem"
       role="alert"
-      data-problem={problem.code}
+      data-problem={told.code}
       {...(isTranslated ? {} : { lang: "en" })}
     >
       <strong>{title}</strong>

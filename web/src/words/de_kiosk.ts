@@ -134,4 +134,32 @@ export const deKiosk: KioskWords = {
 
   told_run_open: "Hier ist ein anderes Fahrzeug offen",
   told_run_open_detail: (serial) => `Erst ${serial} beenden oder abbrechen, dann noch einmal scannen.`,
+
+  told_choose_sku: "Welche Kamera ist es?",
+  told_choose_sku_do: "Erst den Kameratyp wählen, dann noch einmal scannen.",
+  told_source_stalled: "Von der Kamera kommt kein Bild",
+  told_source_stalled_do:
+    "Kabel und Strom prüfen. Jede angenommene Aufnahme ist gespeichert; mit dem nächsten Bild geht es weiter.",
+  told_frame_missing: "Das Bild ist nicht angekommen",
+  told_frame_missing_do: "Das Target noch einmal an seinem Platz halten.",
+  told_frame_moved: "Das Target hat sich bewegt",
+  told_frame_moved_do: "Bis zum Ton still halten.",
+  told_pose_not_matched: "Das Target ist nicht an seinem Platz",
+  told_pose_not_matched_do: "Erst in den gestrichelten Umriss bringen.",
+  told_target_not_visible: "Das Target wurde nicht gefunden",
+  told_target_not_visible_do: "Das ganze Target zeigen, bei gleichmäßigem Licht.",
+  told_wrong_target: "Das ist ein anderes Target",
+  told_wrong_target_do: "Das Target nehmen, das zu diesem Kameratyp gehört.",
+  told_wrong_image_size: "Die Kamera sendet Bilder anderer Größe",
+  told_wrong_image_size_do:
+    "Den Kameratyp dieses Laufs prüfen oder die Bildgröße der Kamera vom Ingenieur einstellen lassen.",
+  told_revision_retired: "Der Kameratyp wurde inzwischen geändert",
+  told_revision_retired_do:
+    "Diesen Lauf abbrechen und das Fahrzeug neu scannen. Gespeicherte Aufnahmen bleiben beim alten Lauf.",
+  told_serial_invalid: "Das ist keine Seriennummer",
+  told_serial_invalid_do: "Etikett noch einmal scannen; erlaubt sind Buchstaben, Ziffern und - _ . : /.",
+  told_disk_full: "Die Festplatte des Servers ist voll",
+  told_disk_full_do: "Nichts Gespeichertes ist verloren. Die Werks-IT rufen, dann weitermachen.",
+  told_database_busy: "Der Server ist beschäftigt",
+  told_database_busy_do: "Nichts Gespeichertes ist verloren. Noch einmal versuchen.",
 };

@@ -128,6 +128,34 @@ export const enKiosk = {
 
   told_run_open: "Another vehicle is open here",
   told_run_open_detail: (serial: string) => `Finish or abort ${serial} first, then scan again.`,
+
+  told_choose_sku: "Which camera is it?",
+  told_choose_sku_do: "Choose the camera type first, then scan again.",
+  told_source_stalled: "No picture comes from the camera",
+  told_source_stalled_do:
+    "Check its cable and power. Every accepted capture is stored; the run goes on with the next picture.",
+  told_frame_missing: "The picture did not arrive",
+  told_frame_missing_do: "Hold the board in its place once more.",
+  told_frame_moved: "The board moved",
+  told_frame_moved_do: "Hold it still until the tone.",
+  told_pose_not_matched: "The board is not in its place",
+  told_pose_not_matched_do: "Bring it into the dashed outline first.",
+  told_target_not_visible: "The board was not found",
+  told_target_not_visible_do: "Show the whole board, in even light.",
+  told_wrong_target: "This is another board",
+  told_wrong_target_do: "Take the board that belongs to this camera type.",
+  told_wrong_image_size: "The camera sends pictures of another size",
+  told_wrong_image_size_do:
+    "Check the camera type of this run, or let the engineer set the camera's picture size.",
+  told_revision_retired: "The camera type was revised meanwhile",
+  told_revision_retired_do:
+    "Abort this run and scan the vehicle again. Stored captures stay with the old run.",
+  told_serial_invalid: "This is no serial",
+  told_serial_invalid_do: "Scan the label again; letters, digits and - _ . : / are allowed.",
+  told_disk_full: "The server's disk is full",
+  told_disk_full_do: "Nothing stored is lost. Call plant IT, then go on.",
+  told_database_busy: "The server is busy",
+  told_database_busy_do: "Nothing stored is lost. Try again.",
 };
 
 export type KioskWords = typeof enKiosk;
