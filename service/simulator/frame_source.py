@@ -10,8 +10,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.errors import FrameForgotten
 from service.core.guidance.hints import ShownHint
+from service.core.guidance.problems import FrameForgotten
 from service.core.vision.transforms import Pose
 from service.simulator.live_renderer import LiveRenderer
 from service.simulator.renderer import PreparedScene, prepare

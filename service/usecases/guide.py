@@ -9,10 +9,7 @@ from uuid import UUID
 
 from service.core.errors import (
     DegenerateViews,
-    FrameMissing,
-    PoseNotMatched,
     PoseTaken,
-    RevisionRetired,
     RunAborted,
     RunAlreadyFinished,
     ServiceError,
@@ -34,6 +31,7 @@ from service.core.guidance.actions import (
 )
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import ShownHint
+from service.core.guidance.problems import FrameMissing, PoseNotMatched, RevisionRetired
 from service.core.guidance.session import GuidanceSettings, start_session, step
 from service.core.guidance.session_view import view
 from service.core.vision.calibration import calibrate_intrinsics

@@ -5,11 +5,11 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from service.core.errors import FrameForgotten
 from service.core.guidance.actions import CaptureFrame, Frame
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import Hint, ShownHint
 from service.core.guidance.observation import Observation
+from service.core.guidance.problems import FrameForgotten
 from service.core.guidance.session import GuidanceSettings, start_session, step
 from service.core.guidance.session_view import view
 from service.core.vision.detection import detect_target

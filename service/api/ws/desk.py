@@ -14,7 +14,8 @@ from anyio import to_thread
 
 from service.api.ws.link import Link
 from service.api.ws.messages import message_of, state_message
-from service.core.errors import KioskLeft, ServiceError, StateForbids, StationHeld
+from service.core.errors import ServiceError, StateForbids
+from service.core.guidance.problems import KioskLeft, StationHeld
 from service.ports import FrameSource, LiveFrame
 from service.storage.words import FrameOrigin
 from service.usecases.guide import GuidedSession, Plant, open_session, resume_session

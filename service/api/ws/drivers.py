@@ -11,7 +11,7 @@ from time import monotonic
 from anyio import to_thread
 
 from service.api.ws.desk import Desk
-from service.core.errors import SourceStalled
+from service.core.guidance.problems import SourceStalled
 from service.ports import FrameSourceMaker
 from service.usecases.guide_frames import RawFrame
 

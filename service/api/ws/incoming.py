@@ -18,10 +18,10 @@ from service.core.errors import (
     NotAuthenticated,
     NotFound,
     ServiceError,
-    StationHeld,
     TooLarge,
     ValidationFailed,
 )
+from service.core.guidance.problems import StationHeld
 from service.usecases.guide_frames import read_raw
 
 MOST_TEXT = 65_536
