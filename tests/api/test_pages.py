@@ -16,6 +16,7 @@ def web(tmp_path: Path) -> Path:
     built = tmp_path / "dist"
     (built / "assets").mkdir(parents=True)
     (built / "dashboard.html").write_text("<title>dmscal</title>")
+    (built / "kiosk.html").write_text("<title>kiosk</title>")
     (built / "assets" / "dashboard-1a2b.js").write_text("export {}")
     (tmp_path / "secret.txt").write_text("secret")
     return built
@@ -50,11 +51,18 @@ def test_the_first_page_is_always_asked_for_again_and_assets_never(client: TestC
     assert asset.headers["content-type"].startswith("text/javascript")
 
 
-def test_a_page_that_was_not_built_says_how_to_build_it(tmp_path: Path) -> None:
+def test_the_kiosk_has_an_address_of_its_own_and_is_always_asked_for_again(client: TestClient) -> None:
+    kiosk = client.get("/kiosk?station=line1")
+
+    assert (kiosk.text, kiosk.headers["cache-control"]) == ("<title>kiosk</title>", "no-cache")
+
+
+@pytest.mark.parametrize("address", ["/", "/kiosk"])
+def test_a_page_that_was_not_built_says_how_to_build_it(tmp_path: Path, address: str) -> None:
     app = create_api()
     app.dependency_overrides[web_directory] = lambda: tmp_path / "nowhere"
 
-    page = TestClient(app).get("/")
+    page = TestClient(app).get(address)
 
     assert page.status_code == 200
     assert "make setup" in page.text

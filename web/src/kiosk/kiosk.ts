@@ -206,6 +206,8 @@ export class Kiosk {
 
   private lose(code: number, isFinal: boolean): void {
     this.happen({ kind: "lost", code, isFinal });
+    // The last picture stays, without guidance: nobody says any more whether it is right.
+    this.shown.value = { ...this.shown.value, live: null };
     this.underway.forget();
     this.camera.send(null, 0);
     this.decoding = Promise.resolve();

@@ -80,6 +80,12 @@ describe("a run", () => {
     expect(after(...RUNNING, live({ run_id: "run-0" })).live).toBeNull();
   });
 
+  it("takes no frame that comes late, when the socket is lost already", () => {
+    const lost = nextState(after(...RUNNING), { kind: "lost", code: 1006, isFinal: false });
+
+    expect(nextState(lost, { kind: "told", message: live({}) }).live).toBeNull();
+  });
+
   it("learns from frames which pose is asked for", () => {
     expect(after(...RUNNING, live({ pose_index: 2 })).run?.pose_index).toBe(2);
   });

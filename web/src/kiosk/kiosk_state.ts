@@ -116,7 +116,9 @@ function began(state: KioskState, run: Run): KioskState {
 }
 
 function judged(state: KioskState, live: State): KioskState {
-  if (live.run_id !== state.run?.run_id || state.verdict !== null) return state;
+  // A picture that was still being decoded when the socket was lost guides nobody.
+  const isHeard = state.connection.kind === "open" && state.verdict === null;
+  if (!isHeard || live.run_id !== state.run?.run_id) return state;
   const isMended = state.problem !== null && MENDED_BY_A_PICTURE.test(state.problem.code);
   const run = { ...state.run, pose_index: live.pose_index, automatic: live.automatic };
   const isKnown = run.pose_index === state.run.pose_index && run.automatic === state.run.automatic;
