@@ -18,7 +18,7 @@ import { YieldFigures } from "./yield_figures";
 import { runsOf, sumOf, sumsBy } from "./yield_sums";
 import { YieldTable } from "./yield_table";
 
-const REFRESH_MS = 30_000;
+const REFRESH_MS = 60_000;
 const refresh = (): number => REFRESH_MS;
 
 export function YieldPage({ sku, station }: { sku: string; station: string }): JSX.Element {
