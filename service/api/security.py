@@ -11,6 +11,11 @@ from service.api.problems import MEDIA_TYPE, answer_problem, trace_id_of
 from service.core.errors import BadRequest, ServiceError, TooLarge
 from service.log import logged_with
 
+TOO_LARGE = (
+    "The body is larger than this address accepts. Send one image as the camera delivers it; "
+    "whoever runs the service can raise DMSCAL_MAX_UPLOAD_MB."
+)
+
 
 class Guard:
     """Middleware, plain ASGI so that it neither buffers bodies nor changes how errors travel."""
@@ -48,7 +53,7 @@ class GuardedSend:
             headers = MutableHeaders(scope=message)
             is_plain = not headers.get("content-type", "").startswith(MEDIA_TYPE)
             if message["status"] == HTTPStatus.REQUEST_ENTITY_TOO_LARGE and is_plain:
-                await self.answer(TooLarge("The body is larger than this address accepts."))
+                await self.answer(TooLarge(TOO_LARGE))
                 self._is_dropping = True
                 return
             add_guard_headers(headers, self.request.url.path, trace_id_of(self.request))
