@@ -39,7 +39,7 @@ class Habits:
     mirrored: the hand's screen shows picture and words as a mirror does.
     """
 
-    speed_m_s: float = 0.4
+    speed_m_s: float = 0.32
     turn_rad_s: float = float(np.deg2rad(120.0))
     reaction_s: float = 0.25
     inertia_s: float = 0.1
