@@ -101,6 +101,7 @@ def test_a_capture_is_the_raw_frame_without_any_loss(station: Plant) -> None:
     answer = station.get(f"/captures/{accepted['capture_id']}/image")
     stored = cv2.imdecode(np.frombuffer(answer.content, np.uint8), cv2.IMREAD_UNCHANGED)
     assert answer.headers["content-type"] == "image/png"
+    assert stored is not None
     assert np.array_equal(stored, pixels(accepted["pose_index"]))
     assert answer.content != picture(accepted["pose_index"])
 
