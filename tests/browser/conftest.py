@@ -38,9 +38,9 @@ def built_web() -> Path:
     return WEB / "dist"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium() -> Iterator[Browser]:
-    """A real Chromium."""
+    """A real Chromium, for one file: Playwright keeps an event loop running, which no other test could stand."""
     with running_chromium() as browser:
         yield browser
 

@@ -19,9 +19,10 @@ import type {
 
 async function request(path: string, signal?: AbortSignal): Promise<Response> {
   let answer: Response;
+  const used = key.value;
   try {
     answer = await fetch(path, {
-      headers: { Authorization: `Bearer ${key.value ?? ""}` },
+      headers: { Authorization: `Bearer ${used ?? ""}` },
       ...(signal && { signal }),
     });
   } catch (error) {
@@ -33,14 +34,15 @@ async function request(path: string, signal?: AbortSignal): Promise<Response> {
     reportReached();
     return answer;
   }
-  return refuse(answer);
+  return refuse(answer, used);
 }
 
-async function refuse(answer: Response): Promise<never> {
+async function refuse(answer: Response, used: string | null): Promise<never> {
   const problem = problemFrom(answer.status, await answer.json().catch(() => null));
   if (meansUnreachable(problem)) reportUnreached();
   else reportReached();
-  if (mustAskForKey(problem)) dropRefusedKey(problem.detail);
+  // Of several requests with a refused key the first one tells why; the others may be cut off in mid-answer.
+  if (mustAskForKey(problem) && used === key.value) dropRefusedKey(problem.detail);
   throw new RequestFailed(problem);
 }
 
