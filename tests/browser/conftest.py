@@ -40,7 +40,7 @@ def built_web() -> Path:
 
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Browser]:
-    """A real Chromium, for one file: Playwright keeps an event loop running, which no other test could stand."""
+    """A real Chromium for one file: Playwright keeps a loop running, which other tests cannot stand."""
     with running_chromium() as browser:
         yield browser
 
