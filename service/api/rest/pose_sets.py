@@ -17,7 +17,7 @@ from service.api.shapes import Answer, Id, Page, Request, RevisionNumber, SkuCod
 from service.core.planning.criterion import Objective, Weights
 from service.core.planning.robustness import DRAWS
 from service.storage.words import Publication
-from service.usecases import pose_sets
+from service.usecases import pose_sets, refinement
 from service.usecases.planning import Planner, PlanRequest
 
 router = APIRouter(tags=["Pose sets"])
@@ -231,3 +231,38 @@ def read_pose_set(pose_set_id: Id, caller: Viewer, db: ReadDb) -> PoseSet:
 def publish_pose_set(pose_set_id: Id, caller: Engineer, db: Db, now: Now) -> PoseSet:
     """Publish a planned set: new runs of its SKU revision follow it, and the set before is retired."""
     return PoseSet.model_validate(pose_sets.publish_pose_set(db, pose_set_id, caller.name, now))
+
+
+class Refinement(Request):
+    """A finished run whose estimate becomes the nominal of a new revision."""
+
+    run_id: UUID = Field(strict=False)
+    seed: int = Field(default=0, ge=0, le=2**31 - 1, description="Of the plan: same seed, same poses.")
+
+    model_config = ConfigDict(
+        json_schema_extra={"examples": [{"run_id": "019b0000-0000-7000-8000-000000000000"}]}
+    )
+
+
+class Refined(Answer):
+    """The new revision, a draft, with the set that is planned for it.
+
+    When the job is done, the set's `provenance.follows` says whether the plan before still holds.
+    """
+
+    revision: int
+    pose_set: PoseSet
+    job: Job
+
+
+@router.post("/skus/{code}/refine", status_code=202, summary="Refine a SKU by a run")
+def refine_sku(
+    code: SkuCode, body: Refinement, *, caller: Engineer, db: Db, of: Of, now: Now
+) -> Refined:
+    """Make a revision whose nominal is what a run has found, and plan for it: again until it is settled."""
+    plan = PlanRequest(seed=body.seed)
+    made = refinement.refine_sku(db, of.jobs, code, body.run_id, plan, who=caller.name, now=now)
+    requested = made.requested
+    return Refined.model_validate(
+        {"revision": made.revision.number, "pose_set": requested.pose_set, "job": requested.job}
+    )
