@@ -256,9 +256,7 @@ class Refined(Answer):
 
 
 @router.post("/skus/{code}/refine", status_code=202, summary="Refine a SKU by a run")
-def refine_sku(
-    code: SkuCode, body: Refinement, *, caller: Engineer, db: Db, of: Of, now: Now
-) -> Refined:
+def refine_sku(code: SkuCode, body: Refinement, *, caller: Engineer, db: Db, of: Of, now: Now) -> Refined:
     """Make a revision whose nominal is what a run has found, and plan for it: again until it is settled."""
     plan = PlanRequest(seed=body.seed)
     made = refinement.refine_sku(db, of.jobs, code, body.run_id, plan, who=caller.name, now=now)

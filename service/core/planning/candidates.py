@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 
 from service.core.planning.noise import CornerNoise, noise_at
-from service.core.planning.pose_space import Poses, PoseSpace, sample_poses
-from service.core.planning.visibility import measure_visibility
-from service.core.vision.camera import Intrinsics, project
+from service.core.planning.pose_space import Poses, PoseSpace, sample_visible
+from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
@@ -29,7 +28,5 @@ def sample_candidates(
     sigma_px: float | CornerNoise,
 ) -> Candidates:
     """Return `count` feasible poses with their corners and noise; raises PoseSpaceEmpty."""
-    poses = sample_poses(space, intrinsics, target, count, seed)
-    seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
-    pixels = project(intrinsics, poses.rotations, poses.translations, target.object_points)
-    return Candidates(poses, pixels, noise_at(sigma_px, seen, space.depth_of_field_m))
+    poses, seen = sample_visible(space, intrinsics, target, count, seed)
+    return Candidates(poses, seen.image_points, noise_at(sigma_px, seen, space.depth_of_field_m))

@@ -77,7 +77,7 @@ def blur_at(seen: Visibility, depth_of_field_m: tuple[float, float] | None) -> A
     limits of the depth of field where their blur is equal. None: everything is in focus.
     """
     if depth_of_field_m is None:
-        return np.full(len(seen.skew), REFERENCE_BLUR_PX)
+        return np.full(len(seen.nearest_m), REFERENCE_BLUR_PX)
     near, far = (1.0 / limit for limit in depth_of_field_m)
     depths = 0.5 * (seen.nearest_m + seen.farthest_m)
     off_focus = np.abs(1.0 / depths - 0.5 * (near + far)) / max(0.5 * abs(near - far), 1e-9)
@@ -90,4 +90,4 @@ def noise_at(
     """Return the corner noise (m,), px, of m poses: a number means the same for all."""
     if isinstance(noise, CornerNoise):
         return noise.sigma_px(seen, blur_at(seen, depth_of_field_m))
-    return np.full(len(seen.skew), float(noise))
+    return np.full(len(seen.nearest_m), float(noise))

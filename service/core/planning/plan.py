@@ -19,7 +19,7 @@ from service.core.planning.prediction import free_parameters, predict_accuracy, 
 from service.core.planning.robustness import NOMINAL_ONLY, Robustness, information_by_draw
 from service.core.planning.variety import fixed_places, next_place, requirements
 from service.core.planning.visibility import measure_visibility
-from service.core.vision.camera import Intrinsics, project
+from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose
 from service.core.vision.uncertainty import GRID, MappingError, Region, compensated_jacobian
@@ -95,7 +95,7 @@ def plan_pose_set(
     information = information_by_draw(
         intrinsics, target, given, robustness=robustness, rng=np.random.default_rng((seed, 1))
     )[:, :, free[:, None], free]
-    J = compensated_jacobian(intrinsics, zone.grid(*GRID))[:, :, free]
+    J = _mapping_jacobians(intrinsics, zone)[:, :, free]
     criterion = make_criterion(weighed, information.mean(axis=(0, 1)), J)
     search = _Search(given, information, target, space, intrinsics.image_size, criterion, seed)
     report(SAMPLED)
@@ -119,9 +119,8 @@ def describe_set(
     fixed: Collection[str] = (),
 ) -> PoseSet:
     """Return an ordered set with what it promises; PoseSetInfeasible where its poses are too much alike."""
-    pixels = project(intrinsics, poses.rotations, poses.translations, target.object_points)
-    diversity = check_diversity(measure_diversity(poses, target, pixels, intrinsics.image_size))
     seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
+    diversity = check_diversity(measure_diversity(poses, target, seen.image_points, intrinsics.image_size))
     noise = noise_at(sigma_px, seen, space.depth_of_field_m)
     prediction = predict_accuracy(intrinsics, target, poses, noise, zone, fixed=fixed)
     known = isinstance(sigma_px, CornerNoise)
@@ -166,7 +165,8 @@ class _Search:
 
     def find(self, count: int, progress: Progress) -> Indices:
         """Return the best set (count,) that also holds what every set must hold."""
-        needed = requirements(self.given.poses, self.given.image_points, self.image_size, count)
+        outer = self.target.outer_corners
+        needed = requirements(self.given.poses, self.given.image_points, outer, self.image_size, count)
         places = self._places(count)
         chosen = self._select(count, places, progress)
         while len(places) < count:
@@ -202,6 +202,21 @@ class _Search:
 
     def _places(self, count: int) -> list[Mask]:
         return fixed_places(self.given.poses, self.target, self.space, count)
+
+
+def _mapping_jacobians(intrinsics: Intrinsics, zone: Region) -> Array:
+    """Return how pixels of the zone move with the parameters (k, 2, p); PoseSetInfeasible for a fold."""
+    J = compensated_jacobian(intrinsics, zone.grid(*GRID))
+    unreached = int(np.count_nonzero(~np.all(np.isfinite(J), axis=(1, 2))))
+    if unreached:
+        raise PoseSetInfeasible(
+            f"The lens model folds back inside the zone: it reaches only {len(J) - unreached} of {len(J)} "
+            "places of it, so that nothing can be promised for the rest. Correct the nominal's coefficients, "
+            "choose a lens model for wide lenses, or give a smaller working_zone.",
+            unreached=unreached,
+            places=len(J),
+        )
+    return J
 
 
 def _part(report: Progress, begin: float, end: float) -> Progress:

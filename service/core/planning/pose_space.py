@@ -13,7 +13,7 @@ from scipy.stats import qmc
 
 from service.core.errors import PoseSpaceEmpty
 from service.core.planning.fixture import Box, touches_a_box
-from service.core.planning.visibility import LENS_SHARE, measure_visibility, place_targets
+from service.core.planning.visibility import LENS_SHARE, Visibility, measure_visibility, place_targets
 from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
@@ -101,22 +101,34 @@ def sample_poses(
     of their size fits, border included: even sampling in space would leave the image corners almost empty.
     Raises PoseSpaceEmpty, naming the bound, when less than SMALLEST_SHARE of the poses is feasible.
     """
+    return sample_visible(space, intrinsics, target, count, seed)[0]
+
+
+def sample_visible(
+    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, seed: int
+) -> tuple[Poses, Visibility]:
+    """Return the poses of `sample_poses` with what they look like."""
     check_pose_space(space)
     engine = qmc.Halton(d=6, rng=np.random.default_rng(seed))
-    batch = max(count, SMALLEST_BATCH)
     found: list[Poses] = []
-    failures: dict[str, Mask] = {}
+    looks: list[Visibility] = []
     have = drawn = 0
     while have < count:
+        # What is still missing, by the share that was feasible so far, and a little more.
+        share = have / drawn if have else 0.5
+        batch = min(max(int(1.1 * (count - have) / share), SMALLEST_BATCH), max(count, SMALLEST_BATCH))
         poses = _poses_of_unit_cube(space, intrinsics, target, engine.random(batch))
-        failures = infeasibilities(space, intrinsics, target, poses)
-        found.append(poses[~np.any(list(failures.values()), axis=0)])
+        seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
+        failures = _failures(space, target, poses, seen)
+        good = ~np.any(list(failures.values()), axis=0)
+        found.append(poses[good])
+        looks.append(seen.part(good))
         have, drawn = have + len(found[-1]), drawn + batch
         if have < SMALLEST_SHARE * drawn:
             raise _empty_space(failures, have, drawn)
     rotations = np.concatenate([poses.rotations for poses in found])
     translations = np.concatenate([poses.translations for poses in found])
-    return Poses(rotations[:count], translations[:count])
+    return Poses(rotations[:count], translations[:count]), Visibility.join(looks).part(slice(count))
 
 
 def infeasibilities(
@@ -124,6 +136,10 @@ def infeasibilities(
 ) -> dict[str, Mask]:
     """Return, for each bound by name, which of the m poses break it: masks (m,)."""
     seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
+    return _failures(space, target, poses, seen)
+
+
+def _failures(space: PoseSpace, target: Chessboard, poses: Poses, seen: Visibility) -> dict[str, Mask]:
     near, far = space.depth_of_field_m or (0.0, np.inf)
     # Written as "not within", so that NaN (behind the camera, does not fit) breaks the bound.
     return {

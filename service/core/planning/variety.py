@@ -54,18 +54,24 @@ def fixed_places(poses: Poses, target: Chessboard, space: PoseSpace, count: int)
 
 
 def requirements(
-    poses: Poses, image_points: Array, image_size: tuple[int, int], count: int
+    poses: Poses,
+    image_points: Array,
+    outer: Sequence[int],
+    image_size: tuple[int, int],
+    count: int,
 ) -> list[Requirement]:
     """Return what a set of `count` must hold as well: boards in every image corner, tilts of every sign.
 
-    image_points: (m, n, 2) px. What no candidate offers is not asked for, nor anything of a very small set.
+    image_points: (m, n, 2) px; outer: which of them are the outermost. What no candidate offers is not asked
+    for, nor anything of a very small set.
     """
     if count < FEWEST_FOR_ALL:
         return []
     right, bottom = image_size[0] - 1.0, image_size[1] - 1.0
     near_corners = []
+    outline = image_points[:, list(outer)]
     for corner in product((0.0, right), (0.0, bottom)):
-        reach = np.linalg.norm(image_points - np.array(corner), axis=2).min(axis=1)
+        reach = np.linalg.norm(outline - np.array(corner), axis=2).min(axis=1)
         near_corners.append(reach <= np.quantile(reach, CORNER_SHARE))
     tilts = [sign * poses.rotations[:, axis, 2] >= TILTED for axis in (0, 1) for sign in (1.0, -1.0)]
     return [Requirement(mask) for mask in (*near_corners, *tilts) if np.any(mask)]

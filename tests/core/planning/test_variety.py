@@ -7,7 +7,7 @@ from tests.core.planning.cameras import BOARD, LENS1
 
 POSES = sample_poses(PoseSpace(), LENS1, BOARD, 500, seed=2)
 PIXELS = project(LENS1, POSES.rotations, POSES.translations, BOARD.object_points)
-NEEDED = requirements(POSES, PIXELS, LENS1.image_size, 12)
+NEEDED = requirements(POSES, PIXELS, BOARD.outer_corners, LENS1.image_size, 12)
 
 
 def test_a_set_must_visit_every_image_corner_and_tilt_every_way() -> None:
@@ -17,7 +17,7 @@ def test_a_set_must_visit_every_image_corner_and_tilt_every_way() -> None:
 
 
 def test_few_poses_cannot_be_asked_for_everything() -> None:
-    assert requirements(POSES, PIXELS, LENS1.image_size, 3) == []
+    assert requirements(POSES, PIXELS, BOARD.outer_corners, LENS1.image_size, 3) == []
 
 
 def test_the_next_place_is_for_what_is_missing() -> None:

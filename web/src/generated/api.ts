@@ -427,6 +427,24 @@ export interface Ready {
   checks: string[];
 }
 
+/**
+ * The new revision, a draft, with the set that is planned for it.
+ *
+ * When the job is done, the set's `provenance.follows` says whether the plan before still holds.
+ */
+export interface Refined {
+  revision: number;
+  pose_set: PoseSet;
+  job: Job;
+}
+
+/** A finished run whose estimate becomes the nominal of a new revision. */
+export interface Refinement {
+  run_id: string;
+  /** Of the plan: same seed, same poses. */
+  seed?: number;
+}
+
 /** A rectangle of the image, px. */
 export interface RegionDocument {
   left_px: number;
