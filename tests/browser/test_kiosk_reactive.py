@@ -84,7 +84,7 @@ def test_a_board_upside_down_in_the_very_place_is_told_and_never_taken(
     page = begin(reactive_page(chromium, start=place, stubborn=True), stations, "upside", "VIN-UPSIDE")
 
     wait_for_hint(page, lambda code: code == "turn-upside-down")
-    expect(page.locator(".strip-main")).to_have_text("Turn the board upside down")
+    expect(page.locator(".strip-main")).to_have_text("Turn the board round")
     page.wait_for_timeout(1500)
     page.screenshot(path=shots / "kiosk-upside-down.png")
     assert taken(page) == 0

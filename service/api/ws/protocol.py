@@ -65,8 +65,11 @@ class OpenRun(Request):
     type: Literal["open_run"]
     serial: Serial
     sku: Code | None = Field(default=None, description="Null: only resume a run that is open already.")
-    purpose: Purpose = Field(
-        default=Purpose.PRODUCTION, strict=False, description="A virtual station's runs are `simulated`."
+    purpose: Purpose | None = Field(
+        default=None,
+        strict=False,
+        description="Null: `retest` where the serial has a result of production for this SKU, else `production`. "
+        "A virtual station's runs are `simulated`.",
     )
 
 

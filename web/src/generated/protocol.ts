@@ -151,8 +151,10 @@ export interface OpenRun {
   serial: string;
   /** Null: only resume a run that is open already. */
   sku?: string | null;
-  /** A virtual station's runs are `simulated`. */
-  purpose?: Purpose;
+  /**
+   * Null: `retest` where the serial has a result of production for this SKU, else `production`. A virtual station's runs are `simulated`.
+   */
+  purpose?: Purpose | null;
 }
 
 /** How a board stands to the camera, deg, and how far its centre is. */

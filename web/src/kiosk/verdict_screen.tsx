@@ -8,6 +8,7 @@ import { language, words } from "../words/language";
 import { gateName, measurementName, unitName } from "../words/measurements";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
+import { PurposeTag } from "./purpose_tag";
 import { remedyOf } from "./said";
 
 const REASONS_SHOWN = 3;
@@ -16,6 +17,7 @@ const READ_MS = 1500;
 
 export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVerdict }): JSX.Element {
   const say = words.value;
+  const { run } = kiosk.state.value;
   const standing = verdict.verdict;
   const toDo = {
     PASS: say.verdict_do_PASS,
@@ -30,7 +32,9 @@ export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVe
         <VerdictMark standing={standing} size={240} />
         <h1 class="verdict-word">{word}</h1>
       </div>
-      <p class="verdict-serial">{verdict.serial}</p>
+      <p class="verdict-serial">
+        {verdict.serial} {run !== null && <PurposeTag purpose={run.purpose} />}
+      </p>
       <p class="verdict-do" role="alert">
         {toDo}
       </p>

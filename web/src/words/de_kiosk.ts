@@ -33,7 +33,7 @@ export const deKiosk: KioskWords = {
   hint_turn_right_back: "Rechte Seite *nach hinten* drehen",
   hint_rotate_clockwise: "*Im* Uhrzeigersinn drehen",
   hint_rotate_counterclockwise: "*Gegen* den Uhrzeigersinn drehen",
-  hint_turn_upside_down: "Target *auf den Kopf* stellen",
+  hint_turn_upside_down: "Target *um 180° drehen*",
   hint_hold_still: "*Still* halten",
   hint_hold: "So *halten*",
   hint_show_board: "Der Kamera das *Target* zeigen",

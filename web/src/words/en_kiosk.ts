@@ -30,7 +30,7 @@ export const enKiosk = {
   hint_turn_right_back: "Turn the *right side away*",
   hint_rotate_clockwise: "Rotate *clockwise*",
   hint_rotate_counterclockwise: "Rotate *anticlockwise*",
-  hint_turn_upside_down: "Turn the board *upside down*",
+  hint_turn_upside_down: "Turn the board *round*",
   hint_hold_still: "Hold *still*",
   hint_hold: "*Hold* it there",
   hint_show_board: "Show the *board* to the camera",
@@ -40,7 +40,7 @@ export const enKiosk = {
   hint_wrong_board: "This is *another board*",
 
   guide_next: "Next",
-  guide_dot_into_ring: "Bring the dot into the ring",
+  guide_dot_into_ring: "Half a turn: bring the dot into the ring",
   guide_wrong_board: "Take the board that belongs to this station",
   guide_capturing: "Capturing …",
   guide_finishing: "All poses taken. Computing the result …",
