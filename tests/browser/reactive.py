@@ -30,7 +30,16 @@ POSES = (
 )
 START = (0.03, 0.0, 0.38)
 # The camera at the station, which nobody but the page knows: as far from its data sheet as cameras are.
-TRUTH = {**SKU["nominal"], "fx": 677.7, "fy": 678.7, "cx": 330.3, "cy": 190.9, "p1": 0.0, "p2": 0.0, "k3": 0.0}
+TRUTH = {
+    **SKU["nominal"],
+    "fx": 677.7,
+    "fy": 678.7,
+    "cx": 330.3,
+    "cy": 190.9,
+    "p1": 0.0,
+    "p2": 0.0,
+    "k3": 0.0,
+}
 
 
 def prepare_reactive(serving: Serving, *stations: str) -> None:

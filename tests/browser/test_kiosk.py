@@ -75,6 +75,14 @@ def test_a_camera_that_fails_is_said_to_the_whole_hall_with_what_to_do(
     assert height > 200
     page.screenshot(path=shots / "kiosk-fail.png")
     assert stored_run(stations, "VIN-KIOSK-0002")["verdict"] == "FAIL"
+    page.evaluate("localStorage.setItem('dmscal.language', 'de')")
+    page.reload()
+    expect(verdict_of(page).locator(".why li").first).to_contain_text("Die Brennweite ist zu unsicher.")
+    expect(page.locator(".verdict [lang=en]")).to_have_count(0)
+    page.screenshot(path=shots / "kiosk-fail-german.png")
+    page.evaluate("localStorage.removeItem('dmscal.language')")
+    page.reload()
+    expect(verdict_of(page)).to_contain_text("FAIL")
     # Whoever scans at a verdict goes on with the next vehicle, without a button.
     page.keyboard.type("VIN-KIOSK-0022")
     page.keyboard.press("Enter")

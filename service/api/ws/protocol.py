@@ -68,8 +68,8 @@ class OpenRun(Request):
     purpose: Purpose | None = Field(
         default=None,
         strict=False,
-        description="Null: `retest` where the serial has a result of production for this SKU, else `production`. "
-        "A virtual station's runs are `simulated`.",
+        description="Null: `retest` where the serial has a counted result for this SKU, else `production`. A"
+        " virtual station's runs are `simulated`.",
     )
 
 
@@ -255,6 +255,8 @@ class GateLine(Told):
     margin: float | None
     verdict: Verdict
     advice: str
+    reason: str | None = Field(description="Code of what `advice` says, for other languages.")
+    facts: dict[str, Any] | None = Field(description="What `advice` names besides value and limit.")
 
 
 class RunVerdict(Told):

@@ -112,6 +112,10 @@ export interface GateLine {
   margin: number | null;
   verdict: Verdict;
   advice: string;
+  /** Code of what `advice` says, for other languages. */
+  reason: string | null;
+  /** What `advice` names besides value and limit. */
+  facts: Record<string, unknown> | null;
 }
 
 /** Where the board of the pose asked for would appear. */
@@ -152,7 +156,7 @@ export interface OpenRun {
   /** Null: only resume a run that is open already. */
   sku?: string | null;
   /**
-   * Null: `retest` where the serial has a result of production for this SKU, else `production`. A virtual station's runs are `simulated`.
+   * Null: `retest` where the serial has a counted result for this SKU, else `production`. A virtual station's runs are `simulated`.
    */
   purpose?: Purpose | null;
 }

@@ -5,6 +5,7 @@ import { significant, plain, withUnit } from "../format/numbers";
 import type { GateLine, RunVerdict } from "../generated/protocol";
 import { VerdictMark } from "../shell/verdict_mark";
 import { language, words } from "../words/language";
+import { adviceOf } from "../words/advice";
 import { gateName, measurementName, unitName } from "../words/measurements";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
@@ -63,13 +64,17 @@ function Reason({ gate, say }: { gate: GateLine; say: Words }): JSX.Element {
   const unit = unitName(gate.unit, language.value);
   const measured = gate.value === null ? say.not_determined : withUnit(significant(gate.value), unit);
   const limit = gate.limit === null ? "" : ` (${sign(gate.comparison)} ${withUnit(plain(gate.limit), unit)})`;
+  const advice = adviceOf(gate, language.value, say);
+  const remedy = remedyOf(gate.gate, say);
   return (
     <li>
       <strong>
         {gateName(gate.gate, say)}: {measurementName(gate.name, language.value)} {measured}
         {limit}
       </strong>
-      <span class="why-do">{remedyOf(gate.gate, say) ?? gate.advice}</span>
+      <span class="why-do" lang={remedy === null ? advice.lang : language.value}>
+        {remedy === null ? advice.all : `${advice.wrong} ${remedy}`.trim()}
+      </span>
     </li>
   );
 }
