@@ -11,7 +11,8 @@ from uuid import UUID
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from service.core.errors import NotFound, PoseSetNotPublished, StateForbids
+from service.core.errors import NotFound, PoseSetNotPublished
+from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose, RunState, check_serial
 from service.core.vision.transforms import Pose
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow, StationRow
@@ -89,8 +90,8 @@ def read_station(session: Session, code: str) -> StationView:
 def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -> UUID:
     """Return the open run of a serial at a station; opened where there is none.
 
-    A run that was ordered without a station becomes this one's. Raises SerialInvalid, NotFound, StateForbids
-    (its SKU is another one), RevisionNotPublished, PoseSetNotPublished.
+    A run that was ordered without a station becomes this one's. Raises SerialInvalid, NotFound, OtherSkuOpen,
+    RevisionNotPublished, PoseSetNotPublished.
     """
     station = get_station(session, code)
     # Two kiosks that scan the same serial at the same moment must not open two runs.
@@ -101,7 +102,7 @@ def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -
         return _open(session, station, serial, wish, who=who, now=now)
     sku = _sku_code(session, found)
     if wish.sku is not None and wish.sku != sku:
-        raise StateForbids(
+        raise OtherSkuOpen(
             f"Serial '{serial}' has an open run for SKU '{sku}', not '{wish.sku}'. Continue that run, or "
             "abort it first.",
             serial=serial,

@@ -44,15 +44,20 @@ TRUTH = {
 
 def prepare_reactive(serving: Serving, *stations: str) -> None:
     """Publish the camera with few poses, and register stations whose kiosk brings it."""
-    centre = parse_target(FEW["target"]).centre
-    poses = [_pose(np.array(at), np.deg2rad(turned), centre) for at, turned in POSES]
     customer = Customer.of(serving.url, serving.key)
     with customer.http:
-        customer.describe_sku(FEW)
-        asked = customer.ask("POST", "/skus/few/revisions/1/pose-sets", json={"poses": poses})
-        customer.ask("POST", f"/pose-sets/{asked['pose_set']['id']}/publish")
+        prepare_sku(customer)
         for code in stations:
             customer.ask("POST", "/stations", json={"code": code, "name": code, "source": "browser"})
+
+
+def prepare_sku(customer: Customer, code: str = FEW["code"]) -> None:
+    """Publish the camera with few poses under a code."""
+    centre = parse_target(FEW["target"]).centre
+    poses = [_pose(np.array(at), np.deg2rad(turned), centre) for at, turned in POSES]
+    customer.describe_sku({**FEW, "code": code})
+    asked = customer.ask("POST", f"/skus/{code}/revisions/1/pose-sets", json={"poses": poses})
+    customer.ask("POST", f"/pose-sets/{asked['pose_set']['id']}/publish")
 
 
 def reactive_page(

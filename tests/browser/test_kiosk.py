@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, WebSocketRoute, expect
 
 from tests.browser.chromium import Watch, find_chromium
 from tests.browser.kiosk_station import (
@@ -200,18 +200,34 @@ def test_german_and_dark_show_the_same(page: Page, stations: Serving, shots: Pat
     expect(page.get_by_label("Seriennummer", exact=True)).to_be_visible()
 
 
-def test_a_second_kiosk_is_told_who_holds_the_station_and_takes_over(
+def test_a_second_kiosk_on_a_running_run_is_told_who_holds_the_station_and_takes_the_run_over(
     page: Page, stations: Serving, shots: Path
 ) -> None:
     open_kiosk(page, stations)
+    scan(page, "VIN-KIOSK-0008")
     second = page.context.new_page()
     second.goto(f"{stations.url}/kiosk?station=line1#key={stations.key}")
     expect(second.get_by_role("alert")).to_contain_text("Another kiosk holds this station", timeout=20_000)
     second.screenshot(path=shots / "kiosk-taken.png")
+    wait_for_captures(page, 1)
     page.goto("about:blank")
 
-    expect(second.get_by_label("Serial", exact=True)).to_be_visible(timeout=20_000)
+    expect(second.locator(".whose-serial")).to_have_text("VIN-KIOSK-0008", timeout=20_000)
+    assert taken(second) >= 1
+    _abort(second)
     second.close()
+
+
+def test_a_page_of_another_version_is_asked_to_be_loaded_again(page: Page, stations: Serving) -> None:
+    def speak_otherwise(route: WebSocketRoute) -> None:
+        server = route.connect_to_server()
+        route.on_message(lambda said: server.send(str(said).replace('"protocol":1', '"protocol":9')))
+
+    page.route_web_socket("**/guidance", speak_otherwise)
+    page.goto(f"{stations.url}/kiosk?station=line1#key={stations.key}")
+
+    expect(page.get_by_role("alert")).to_contain_text("Load the page again")
+    expect(page.get_by_role("button", name="Load again")).to_be_visible()
 
 
 def test_an_unknown_station_and_a_refused_key_say_what_to_do(page: Page, stations: Serving) -> None:

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 from service.demo.customer import Customer
 from tests.browser.chromium import Watch, find_chromium
 from tests.browser.kiosk_station import stored_run, taken, verdict_of, wait_for_captures, wait_for_hint
-from tests.browser.reactive import POSES, TRUTH, prepare_reactive, reactive_page
+from tests.browser.reactive import FEW, POSES, TRUTH, prepare_reactive, prepare_sku, reactive_page
 from tests.browser.serving import Serving, prepare_service
 
 SIDEWAYS = {"move-left": "move-right", "move-right": "move-left"}
@@ -25,7 +25,7 @@ def stations(built_web: Path, tmp_path_factory: pytest.TempPathFactory) -> Itera
     find_chromium()
     service = prepare_service(tmp_path_factory.mktemp("stations"))
     service.start()
-    prepare_reactive(service, "right", "sideways", "tilted", "upside", "turned", "board", "cable")
+    prepare_reactive(service, "right", "sideways", "tilted", "upside", "turned", "board", "cable", "retired")
     yield service
     service.stop()
 
@@ -66,8 +66,6 @@ def test_what_the_kiosk_says_leads_to_a_pass_and_one_instruction_turned_round_do
         assert taken(misled) < len(POSES)
         end(misled)
     assert watch.errors == []
-    page.context.close()
-
     customer = Customer.of(stations.url, stations.key)
     with customer.http:
         run = stored_run(stations, "VIN-RIGHT")
@@ -75,6 +73,17 @@ def test_what_the_kiosk_says_leads_to_a_pass_and_one_instruction_turned_round_do
     assert (run["verdict"], run["captures"], run["purpose"]) == ("PASS", len(POSES), "production")
     for name in ("fx", "fy", "cx", "cy"):
         assert abs(result["intrinsics"][name] - TRUTH[name]) < 4.0 * result["sd"][name] + 0.1
+
+    # Nobody says that it is a retest: it has a result already.
+    page.get_by_role("button", name="Next vehicle").click()
+    page.get_by_label("Serial", exact=True).fill("VIN-RIGHT")
+    page.keyboard.press("Enter")
+    expect(page.locator(".purpose")).to_have_text("Retest")
+    assert stored_run(stations, "VIN-RIGHT")["purpose"] == "retest"
+    page.get_by_role("button", name="Deutsch").click()
+    expect(page.locator(".purpose")).to_have_text("Wiederholung")
+    page.screenshot(path=shots / "kiosk-retest.png")
+    page.context.close()
 
 
 def test_a_board_upside_down_in_the_very_place_is_told_and_never_taken(
@@ -110,6 +119,27 @@ def test_another_board_is_told_and_never_taken(chromium: Browser, stations: Serv
     expect(page.locator(".strip")).to_contain_text("Take the board that belongs to this station")
     page.screenshot(path=shots / "kiosk-wrong-board.png")
     assert stored_run(stations, "VIN-BOARD")["captures"] == 0
+    end(page)
+
+
+def test_a_run_whose_camera_type_was_revised_meanwhile_says_so_and_goes_on(
+    chromium: Browser, stations: Serving, shots: Path
+) -> None:
+    customer = Customer.of(stations.url, stations.key)
+    with customer.http:
+        prepare_sku(customer, "aged")
+        order = {"sku": "aged", "serial": "VIN-AGED", "station": "retired"}
+        run = customer.ask("POST", "/runs", json=order)
+        customer.ask("POST", "/skus/aged/revisions", json={**FEW, "code": "aged"})
+        customer.ask("POST", "/skus/aged/revisions/2/publish")
+    page = reactive_page(chromium)
+    page.goto(f"{stations.url}/kiosk?station=retired#key={stations.key}")
+
+    expect(page.locator("[data-problem=revision-retired]")).to_contain_text("was revised meanwhile")
+    page.screenshot(path=shots / "kiosk-retired.png")
+    page.get_by_role("button", name="Understood").click()
+    wait_for_captures(page, 1)
+    assert stored_run(stations, "VIN-AGED")["id"] == run["id"]
     end(page)
 
 

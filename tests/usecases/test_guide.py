@@ -2,7 +2,8 @@
 
 import pytest
 
-from service.core.errors import PoseTaken, ServiceError, StateForbids
+from service.core.errors import PoseTaken, ServiceError
+from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose
 from service.usecases import guide
 from service.usecases.guide import GuidedSession, open_session, resume_session
@@ -154,7 +155,7 @@ def test_an_open_run_of_another_sku_is_not_taken(guided: guide.Plant, small_plan
     open_session(guided, "cal1", WISH, "test")
     small_plant.expect(201, small_plant.post("/skus", {**SKU, "code": "other"}))
 
-    with pytest.raises(StateForbids, match="tiny"):
+    with pytest.raises(OtherSkuOpen, match="tiny"):
         open_session(guided, "cal1", Wish("VIN-1", "other"), "test")
 
 

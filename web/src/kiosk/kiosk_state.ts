@@ -16,7 +16,7 @@ export type Connection =
   /** Tried again by itself unless `isFinal`. */
   | { kind: "lost"; code: number; isFinal: boolean };
 
-export type Told = Pick<ProblemTold, "code" | "title" | "detail">;
+export type Told = Pick<ProblemTold, "code" | "title" | "detail"> & Partial<Pick<ProblemTold, "facts">>;
 
 export interface KioskState {
   connection: Connection;
@@ -89,11 +89,15 @@ function heard(state: KioskState, message: ServerMessage): KioskState {
     case "run_closed":
       return { ...state, run: null, live: null, verdict: null, problem: null };
     case "problem":
-      return { ...state, problem: { code: message.code, title: message.title, detail: message.detail } };
+      return { ...state, problem: toldBy(message) };
     default:
       // `want_full_frame` is for the camera; a newer service may say what this page does not know.
       return state;
   }
+}
+
+function toldBy({ code, title, detail, facts }: ProblemTold): Told {
+  return { code, title, detail, facts };
 }
 
 function welcomed(state: KioskState, welcome: Welcome): KioskState {
