@@ -72,7 +72,7 @@ def reactive_page(
         "start": {"centre": START, "upside_down": upside_down},
         **options,
     }
-    context = browser.new_context(viewport={"width": 1366, "height": 768}, locale="en-GB")
+    context = browser.new_context(viewport={"width": 1024, "height": 640}, locale="en-GB")
     page = context.new_page()
     page.set_default_timeout(20_000)
     page.add_init_script(f"window.reactive = {json.dumps(told)};\n{SCRIPT}")

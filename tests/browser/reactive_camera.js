@@ -217,7 +217,7 @@
     }
   };
 
-  const FRAME_MS = 50;
+  const FRAME_MS = 66;
   const LONGEST_STEP_S = 0.1; // a busy machine makes the hand slow, never wild
 
   function film(track) {
