@@ -111,7 +111,9 @@ def test_keys_alone_are_enough(page: Page, stations: Serving) -> None:
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_have_count(0)
     page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Go on")).to_be_focused()
     page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Abort the run")).to_be_focused()
     page.keyboard.press("Enter")
 
     expect(page.get_by_label("Serial", exact=True)).to_be_visible()

@@ -12,7 +12,8 @@ import type { Kiosk } from "./kiosk";
 import { PurposeTag } from "./purpose_tag";
 import { remedyOf } from "./said";
 
-const REASONS_SHOWN = 3;
+/** As many as fit under the verdict on a small screen; the result has all of them. */
+const REASONS_SHOWN = 2;
 /** A foot that still stands on the switch must not wipe the verdict away. */
 const READ_MS = 1500;
 
@@ -26,9 +27,12 @@ export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVe
     FAIL: say.verdict_do_FAIL,
   }[standing];
   const word = { PASS: say.verdict_PASS, MARGINAL: say.verdict_MARGINAL, FAIL: say.verdict_FAIL }[standing];
-  const open = verdict.gates.filter((gate) => gate.verdict !== "PASS");
+  const open = firstOfEachGate(verdict.gates.filter((gate) => gate.verdict !== "PASS"));
   return (
-    <main class={`verdict verdict-${standing}`} data-verdict={standing}>
+    <main
+      class={`verdict verdict-${standing} ${open.length > 0 ? "verdict-reasoned" : ""}`}
+      data-verdict={standing}
+    >
       <div class="verdict-head">
         <VerdictMark standing={standing} size={240} />
         <h1 class="verdict-word">{word}</h1>
@@ -43,6 +47,11 @@ export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVe
       <NextVehicle kiosk={kiosk} say={say} />
     </main>
   );
+}
+
+/** What one gate has to say twice has the same remedy; the service puts the worst first. */
+function firstOfEachGate(gates: readonly GateLine[]): GateLine[] {
+  return gates.filter((gate, i) => gates.findIndex((other) => other.gate === gate.gate) === i);
 }
 
 function Reasons({ gates, say }: { gates: readonly GateLine[]; say: Words }): JSX.Element {

@@ -10,7 +10,7 @@ const BLURRED: Judged = {
   margin: -1,
   advice: "pose-03.png and 2 more are blurred. Take them again.",
   reason: "edge_width_px",
-  facts: { views: ["pose-03.png"], more: 2 },
+  facts: { views: ["05 pose-03.png"], more: 2 },
 };
 
 describe("the advice of a measurement", () => {

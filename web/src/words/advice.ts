@@ -82,9 +82,9 @@ function plainly(fact: unknown): string {
   return typeof fact === "string" || typeof fact === "number" ? String(fact) : "?";
 }
 
-/** Pictures of a guided run are named after their pose. */
+/** Views are named by capture and file, and files of a guided run by their pose. */
 function viewName(name: string, say: Words): string {
-  const pose = /^pose-0*(\d+)\.png$/.exec(name)?.[1];
+  const pose = /^(?:\d+ )?pose-0*(\d+)\.png$/.exec(name)?.[1];
   if (pose !== undefined) return say.pose_number(Number(pose));
   return name === "" ? say.advice_unnamed : name;
 }
