@@ -130,6 +130,8 @@ export interface Job {
 /** Life of a job. */
 export type JobState = "queued" | "running" | "done" | "failed" | "cancelled";
 
+export type JsonValue = unknown;
+
 /** A limit of a gate as it is in force. */
 export interface Limit {
   /** Name of the limit, as in a SKU's document. */
@@ -162,6 +164,10 @@ export interface Measurement {
   margin: number | null;
   verdict: Verdict;
   advice: string;
+  /** Code of what `advice` says, for other languages; null for results of before. */
+  reason: string | null;
+  /** What `advice` names besides value and limit. */
+  facts: Record<string, JsonValue> | null;
 }
 
 /** A key to make. */
