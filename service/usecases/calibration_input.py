@@ -12,8 +12,10 @@ from sqlalchemy.orm import Session
 
 from service.core.quality.evidence import Expectation, NamedDetection
 from service.core.quality.verdict import Judged, calibrate_and_judge
+from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
-from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow
+from service.storage.words import Publication
 from service.usecases.observation import pose_from_json, sharpness_from_json
 from service.usecases.sku_document import Revision, SkuDocument
 
@@ -43,6 +45,8 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
         valid_region=revision.valid_region,
         poses=None if pose_set is None else tuple(pose_from_json(pose) for pose in pose_set.poses),
         pose_of_view=None if pose_set is None else tuple(capture.pose_index for capture in captures),
+        other_skus=_other_skus(session, run),
+        used_for=_used_for(session, run, [capture.sha256 for capture in captures]),
     )
     ids = tuple(capture.id for capture in captures)
     return CalibrationInput(run.id, ids, tuple(map(_detection, captures)), revision, expectation)
@@ -58,6 +62,32 @@ def calibrate(source: CalibrationInput) -> Judged:
         source.expectation,
         fixed=revision.fixed,
     )
+
+
+def _other_skus(session: Session, run: RunRow) -> dict[str, Intrinsics]:
+    """Return the nominals of all other SKUs' published revisions, by code."""
+    own = session.get_one(SkuRevisionRow, run.sku_revision_id).sku_id
+    query = (
+        select(SkuRow.code, SkuRevisionRow.document)
+        .join(SkuRevisionRow, SkuRevisionRow.sku_id == SkuRow.id)
+        .where(SkuRevisionRow.state == Publication.PUBLISHED, SkuRow.id != own)
+    )
+    return {
+        code: SkuDocument.model_validate(document).to_revision().intrinsics
+        for code, document in session.execute(query)
+    }
+
+
+def _used_for(session: Session, run: RunRow, hashes: list[str]) -> dict[str, str]:
+    """Return which images of a run belong to runs of other serials as well: the serial by content hash."""
+    query = (
+        select(CaptureRow.sha256, RunRow.serial)
+        .join(RunRow, CaptureRow.run_id == RunRow.id)
+        .where(
+            CaptureRow.sha256.in_(hashes), RunRow.serial != run.serial, RunRow.created_at <= run.created_at
+        )
+    )
+    return {row.sha256: row.serial for row in session.execute(query)}
 
 
 def _detection(capture: CaptureRow) -> NamedDetection:

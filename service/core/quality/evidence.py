@@ -3,7 +3,8 @@
 Not here: how any of it is judged (gates_*.py, verdict.py).
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from service.core.quality.limits import Limits
 from service.core.vision.calibration import CalibrationResult
@@ -38,7 +39,8 @@ class Expectation:
 
     Zones are by default those of `coverage.py`, limits those of the image size. pose_of_view: for each
     detection in the order given, the index of the prescribed pose that it answers, or None; without it views
-    are matched to their nearest poses.
+    are matched to their nearest poses. other_skus: nominals by code. used_for: by the content hash of an
+    image, another serial that it was used for.
     """
 
     nominal: Intrinsics
@@ -47,6 +49,8 @@ class Expectation:
     valid_region: Region | None = None
     poses: tuple[Pose, ...] | None = None
     pose_of_view: tuple[int | None, ...] | None = None
+    other_skus: Mapping[str, Intrinsics] = field(default_factory=dict)
+    used_for: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

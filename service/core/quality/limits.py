@@ -60,6 +60,12 @@ class Limits:
     )
     monotone_ratio: float = 1.02
     square_pixels: float = 0.002  # of fx/fy from the SKU's own ratio, without SKU from 1
+    bias_ratio: float = 0.30  # of the squared residuals; flat boards leave less than 0.1
+    neighbour_correlation: float = 0.15
+    half_difference: float = 2.0  # of what noise alone would make it
+    held_out_ratio: float = 1.3
+    focal_off_share: float = 0.02  # from the nominal
+    centre_off_px: float = 25.0  # from the nominal; with pixels of 3 um the lens is 75 um off the sensor
     marginal: Mapping[str, float] = field(default_factory=_default_shares)
 
     def share(self, name: str) -> float:
@@ -74,7 +80,7 @@ def default_limits(image_size: tuple[int, int]) -> Limits:
     """Return the default limits of an image size (width, height), px: larger sensors have finer pixels."""
     if image_size[0] * image_size[1] < LARGE_IMAGE_PX:
         return Limits()
-    return Limits(centre_sd_px=0.8, zone_mapping_px=0.40, valid_mapping_px=1.3)
+    return Limits(centre_sd_px=0.8, zone_mapping_px=0.40, valid_mapping_px=1.3, centre_off_px=30.0)
 
 
 def limits_for(image_size: tuple[int, int], overrides: Mapping[str, Any]) -> Limits:

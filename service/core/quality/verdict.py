@@ -14,9 +14,12 @@ from service.core.errors import TooFewViews, WrongImageSize
 from service.core.quality.coverage import default_valid_region, default_working_zone, seen_grid, zone_grid
 from service.core.quality.evidence import Evidence, Expectation, NamedDetection, Refusal
 from service.core.quality.gates import Measurement, Verdict, worst_verdict
+from service.core.quality.gates_bias import measure_bias
 from service.core.quality.gates_certainty import measure_certainty
+from service.core.quality.gates_cross_check import measure_cross_check
 from service.core.quality.gates_fit import measure_fit
 from service.core.quality.gates_frame import measure_frame
+from service.core.quality.gates_identity import measure_identity
 from service.core.quality.gates_model import measure_model
 from service.core.quality.gates_poses import measure_poses
 from service.core.quality.gates_score import Score, measure_score, score_against
@@ -112,7 +115,10 @@ def _judge(evidence: Evidence) -> Judged:
         *measure_poses(evidence),
         *measure_fit(evidence),
         *measure_certainty(evidence, zone, valid),
+        *measure_bias(evidence),
+        *measure_cross_check(evidence),
         *measure_model(evidence),
+        *measure_identity(evidence),
         *measure_score(score),
     )
     return Judged(

@@ -56,6 +56,7 @@ describe("the advice of a measurement", () => {
       lens: "x",
       bend: 0.2,
       share: 0.5,
+      sku: "y",
     };
     for (const [language, say] of [
       ["en", en],

@@ -170,6 +170,52 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     bad: "Das Verhältnis von fx zu fy stimmt nicht: Bild oder Felder wurden gestreckt.",
     remedy: "Das Target nachmessen und ohne Skalierung aufnehmen.",
   },
+  bias_ratio: {
+    good: "Die Restfehler sind so klein wie das Rauschen der Ecken allein.",
+    bad: "Ein Teil der Restfehler ist kein Rauschen: Das Modell lässt etwas übrig.",
+    remedy:
+      "Prüfen, ob das Target eben und steif ist und ob das Objektivmodell zum Objektiv passt; ein geprüftes Target auf einer Glas- oder Aluminiumplatte zeigt, was von beidem es ist.",
+  },
+  neighbour_correlation: {
+    good: "Die Restfehler benachbarter Ecken haben nichts gemeinsam.",
+    bad: "Benachbarte Ecken liegen in dieselbe Richtung daneben, das ist kein Rauschen.",
+    remedy:
+      "Prüfen, ob das Target eben und steif ist und ob das Objektivmodell zum Objektiv passt; ein geprüftes Target auf einer Glas- oder Aluminiumplatte zeigt, was von beidem es ist.",
+  },
+  half_difference: {
+    good: "Hälften der Ansichten führen zur selben Kamera, soweit das Rauschen es zulässt.",
+    bad: "Hälften der Ansichten führen zu verschiedenen Kameras.",
+    remedy:
+      "Prüfen, ob alle Bilder von dieser einen Kamera sind, ihr Objektiv fest und scharf gestellt ist und die Seriennummer stimmt; dann die Ansichten neu aufnehmen.",
+  },
+  held_out_ratio: {
+    good: "Jede Ansicht passt zu der Kamera, die die anderen finden.",
+    bad: ({ views }: About) => `Passt am wenigsten zu der Kamera, die die anderen finden: ${views}.`,
+    remedy: ({ views }: About) =>
+      `Neu aufnehmen oder ähnliche Ansichten hinzufügen: ${views} entscheidet allein zu viel.`,
+  },
+  focal_off_share: {
+    good: "Die Brennweite ist die der SKU.",
+    bad: "Die Brennweite ist nicht die der SKU.",
+    remedy:
+      "Prüfen, ob die Kamera von dieser SKU ist, die Bilder nicht skaliert sind und der Nennwert stimmt.",
+  },
+  centre_off_px: {
+    good: "Der Bildhauptpunkt liegt dort, wo die SKU ihn hat.",
+    bad: "Der Bildhauptpunkt liegt nicht dort, wo die SKU ihn hat.",
+    remedy:
+      "Prüfen, ob das Objektiv nicht verschoben ist, die Bilder nicht beschnitten sind und der Nennwert stimmt.",
+  },
+  other_sku: {
+    good: "Keine andere SKU passt besser zu dieser Kamera.",
+    bad: ({ fact }: About) => `Diese Kamera sieht aus wie eine der SKU ${fact("sku")}.`,
+    remedy: "Prüfen, welche Kamera eingebaut ist, und den Lauf für deren SKU öffnen.",
+  },
+  used_elsewhere: {
+    good: "Kein Bild wurde für eine andere Seriennummer benutzt.",
+    bad: ({ views }: About) => `Schon für eine andere Seriennummer benutzt: ${views}.`,
+    remedy: "Prüfen, welche Kamera die Station liest, und die Bilder der Kamera dieses Fahrzeugs aufnehmen.",
+  },
   paper_score: { good: "Die Gütezahl der Vorlage gegen die Nennkamera der SKU; höher ist näher." },
   nominal_difference_px: {
     good: "Wie weit diese Kamera die Arbeitszone anders abbildet als die Nennkamera der SKU.",

@@ -160,6 +160,50 @@ export const adviceEn = {
     bad: "The ratio of fx to fy is off: image or squares were stretched.",
     remedy: "Measure the board, and record without scaling.",
   },
+  bias_ratio: {
+    good: "The residuals are as small as the noise of the corners alone.",
+    bad: "Part of the residuals is no noise: the model leaves something behind.",
+    remedy:
+      "Check that the board is flat and rigid and that the lens model suits the lens; a certified board on a plate of glass or aluminium shows which of the two it is.",
+  },
+  neighbour_correlation: {
+    good: "The residuals of neighbouring corners have nothing in common.",
+    bad: "Neighbouring corners are off in the same direction, so it is no noise.",
+    remedy:
+      "Check that the board is flat and rigid and that the lens model suits the lens; a certified board on a plate of glass or aluminium shows which of the two it is.",
+  },
+  half_difference: {
+    good: "Halves of the views lead to the same camera, as far as noise lets them.",
+    bad: "Halves of the views lead to different cameras.",
+    remedy:
+      "Check that all images are of this one camera, that its lens is fixed and focused, and that the serial is that of the camera; then take the views again.",
+  },
+  held_out_ratio: {
+    good: "Every view fits the camera that the others find.",
+    bad: ({ views }: About) => `This view fits the camera that the others find least of all: ${views}.`,
+    remedy: ({ views }: About) =>
+      `Take it again, or add views of that kind: ${views} alone decides too much.`,
+  },
+  focal_off_share: {
+    good: "The focal length is that of the SKU.",
+    bad: "The focal length is not that of the SKU.",
+    remedy: "Check that the camera is of this SKU, its images are not scaled, and the nominal is right.",
+  },
+  centre_off_px: {
+    good: "The principal point is where the SKU has it.",
+    bad: "The principal point is not where the SKU has it.",
+    remedy: "Check that the lens is not decentred, the images are not cropped, and the nominal is right.",
+  },
+  other_sku: {
+    good: "No other SKU is nearer to this camera.",
+    bad: ({ fact }: About) => `This camera looks like one of SKU ${fact("sku")}.`,
+    remedy: "Check which camera is built in, and open the run for its SKU.",
+  },
+  used_elsewhere: {
+    good: "No picture was used for another serial.",
+    bad: ({ views }: About) => `Already used for another serial: ${views}.`,
+    remedy: "Check which camera the station read, and take the pictures of this vehicle's camera.",
+  },
   paper_score: { good: "The paper’s score against the SKU’s nominal camera; higher is nearer." },
   nominal_difference_px: { good: "How far this camera maps the working zone from the SKU’s nominal camera." },
 } satisfies Record<string, Advice>;
