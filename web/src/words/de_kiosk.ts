@@ -159,7 +159,7 @@ export const deKiosk: KioskWords = {
     "Den Kameratyp dieses Laufs prüfen oder die Bildgröße der Kamera vom Ingenieur einstellen lassen.",
   told_revision_retired: "Der Kameratyp wurde inzwischen geändert",
   told_revision_retired_do:
-    "Diesen Lauf abbrechen und das Fahrzeug neu scannen. Gespeicherte Aufnahmen bleiben beim alten Lauf.",
+    "Der Lauf geht weiter, wie er begonnen wurde. Für den neuen Stand abbrechen und das Fahrzeug neu scannen.",
   told_serial_invalid: "Das ist keine Seriennummer",
   told_serial_invalid_do: "Etikett noch einmal scannen; erlaubt sind Buchstaben, Ziffern und - _ . : /.",
   told_disk_full: "Die Festplatte des Servers ist voll",

@@ -152,7 +152,7 @@ export const enKiosk = {
     "Check the camera type of this run, or let the engineer set the camera's picture size.",
   told_revision_retired: "The camera type was revised meanwhile",
   told_revision_retired_do:
-    "Abort this run and scan the vehicle again. Stored captures stay with the old run.",
+    "The run goes on as it was opened. To use what is new, abort it and scan the vehicle again.",
   told_serial_invalid: "This is no serial",
   told_serial_invalid_do: "Scan the label again; letters, digits and - _ . : / are allowed.",
   told_disk_full: "The server's disk is full",
