@@ -1,0 +1,223 @@
+"""The guidance socket at a station whose camera the service reads: real streams, over real connections."""
+
+import json
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+
+from service.api.ws import drivers
+from service.storage.models import AuditEntryRow
+from service.storage.words import Role
+from tests.guiding import Client, add_station, connected, pixels
+from tests.plant import Plant, poses_json, running_plant
+from tests.rtsp import RtspHandler
+from tests.streams import MjpegHandler, Stage, camera_on, jpeg_of_pose, port_of, to_jpeg
+
+POSES = len(poses_json())
+
+
+@pytest.fixture
+def plant(sqlite_address: str, tmp_path: Path) -> Iterator[Plant]:
+    """A plant with a published SKU, which may replay what is in `frames`."""
+    (tmp_path / "frames").mkdir()
+    with running_plant(sqlite_address, tmp_path, frames_dir=str(tmp_path / "frames")) as running:
+        running.publish_sku()
+        yield running
+
+
+@pytest.fixture
+def soon(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What goes wrong with a camera is said sooner."""
+    monkeypatch.setattr(drivers, "STALLED_S", 0.4)
+
+
+def opened(kiosk: Client) -> dict[str, Any]:
+    kiosk.say("open_run", serial="VIN-1", sku="tiny")
+    return kiosk.until("run")
+
+
+def stored_image(plant: Plant, capture_id: str) -> Any:
+    content = plant.get(f"/captures/{capture_id}/image").content
+    return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def grey_of(jpeg: bytes) -> Any:
+    """What a decoder makes of a colour JPEG, in grey."""
+    return cv2.cvtColor(cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR), cv2.COLOR_BGR2GRAY)
+
+
+def test_a_run_is_guided_on_an_mjpeg_stream_to_a_pass(plant: Plant) -> None:
+    stage = Stage()
+    with camera_on(MjpegHandler, stage) as camera:
+        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant) as kiosk:
+            run = opened(kiosk)
+            verdict = stage.obey(kiosk, "verdict")
+            assert kiosk.jpeg[:2] == b"\xff\xd8"
+
+    stored = plant.get(f"/runs/{run['run_id']}").json()
+    assert (verdict["verdict"], stored["captures"], stored["purpose"]) == ("PASS", POSES, "production")
+    assert kiosk.told[0]["source"] == "mjpeg"
+
+
+def test_a_run_is_guided_on_an_rtsp_stream_to_a_pass(plant: Plant) -> None:
+    stage = Stage()
+    with camera_on(RtspHandler, stage) as camera:
+        add_station(plant, source=f"rtsp://joe:s3cret@127.0.0.1:{port_of(camera)}/stream1")
+        with connected(plant) as kiosk:
+            run = opened(kiosk)
+            verdict = stage.obey(kiosk, "verdict")
+
+    stored = plant.get(f"/runs/{run['run_id']}").json()
+    assert (verdict["verdict"], stored["captures"]) == ("PASS", POSES)
+    assert kiosk.told[0]["source"] == "rtsp"
+    assert "s3cret" not in str(kiosk.told)
+
+
+def test_the_capture_is_the_very_frame_that_was_judged(plant: Plant) -> None:
+    stage = Stage()
+    with camera_on(MjpegHandler, stage) as camera:
+        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/bare")
+        with connected(plant) as kiosk:
+            opened(kiosk)
+            accepted = stage.obey(kiosk, "capture_accepted")
+            # The board is gone before anybody looks at what was stored.
+            stage.jpeg = to_jpeg(np.full_like(pixels(0), 90))
+            state = kiosk.until(lambda m: m["type"] == "state" and m["board"] == "absent")
+
+    stored = stored_image(plant, accepted["capture_id"])
+    np.testing.assert_array_equal(stored, grey_of(jpeg_of_pose(accepted["pose_index"])))
+    assert state["camera"]["fps"] > 5
+    assert state["camera"]["source_s"] > 0
+    assert state["round_trip_ms"] > 0
+    with plant.app.state.services.database.read() as session:
+        facts = [row.facts for row in session.query(AuditEntryRow).filter_by(action="capture.add")]
+    assert facts[0]["frame"] >= 1
+    assert facts[0]["source_s"] > 0
+
+
+def test_a_stall_is_said_within_two_seconds() -> None:
+    assert drivers.STALLED_S + drivers.WATCH_S < 2.0
+
+
+def test_a_stream_that_stalls_is_said_and_goes_on(plant: Plant, soon: None) -> None:
+    stage = Stage()
+    with camera_on(MjpegHandler, stage) as camera:
+        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant) as kiosk:
+            opened(kiosk)
+            kiosk.until("state")
+            stage.stalls = True
+            problem = kiosk.until("problem")
+            stage.stalls = False
+            kiosk.until("state")
+
+    assert problem["code"] == "source-stalled"
+
+
+@pytest.mark.parametrize(("handler", "scheme"), [(MjpegHandler, "http"), (RtspHandler, "rtsp")])
+def test_a_camera_that_vanishes_is_said_and_comes_back_by_itself(
+    plant: Plant, soon: None, handler: Any, scheme: str
+) -> None:
+    stage = Stage()
+    with ExitStack() as first_time:
+        camera = first_time.enter_context(camera_on(handler, stage))
+        add_station(plant, source=f"{scheme}://joe:s3cret@127.0.0.1:{port_of(camera)}/locked")
+        with connected(plant) as kiosk:
+            opened(kiosk)
+            kiosk.until("state")
+            first_time.close()
+            problem = kiosk.until(lambda m: m["type"] == "problem" and m["code"] == "source-unreachable")
+            with camera_on(handler, stage, port_of(camera)):
+                kiosk.until("state")
+
+    assert "127.0.0.1" in problem["detail"]
+    assert "s3cret" not in str(problem)
+
+
+def test_a_client_that_is_slow_gets_fewer_pictures_and_none_that_are_old(plant: Plant) -> None:
+    with camera_on(MjpegHandler, Stage()) as camera:
+        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant, kind="monitor", role=Role.VIEWER) as slow, connected(plant) as kiosk:
+            opened(kiosk)
+            seen = [sequence_of(slow) for _ in range(2)]
+            while kiosk.until("state")["sequence"] < seen[-1] + 12:
+                continue
+            slow.say("ack", sequence=seen[0])
+            seen.append(sequence_of(slow))
+
+    assert seen[2] >= seen[1] + 10
+
+
+def sequence_of(client: Client) -> int:
+    """The number of the next picture, which is not acknowledged."""
+    while (message := client.socket.receive()).get("bytes") is None:
+        continue
+    content = message["bytes"]
+    return int(json.loads(content[4 : 4 + int.from_bytes(content[:4], "little")])["sequence"])
+
+
+def test_pictures_of_another_size_are_told_once_and_guidance_goes_on(plant: Plant) -> None:
+    stage = Stage(jpeg=to_jpeg(np.zeros((304, 400), np.uint8)))
+    with camera_on(MjpegHandler, stage) as camera:
+        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant) as kiosk:
+            opened(kiosk)
+            problem = kiosk.until("problem")
+            stage.show(0)
+            kiosk.until("state")
+
+    assert (problem["code"], problem["facts"]["found"]) == ("wrong-image-size", [400, 304])
+    assert [m["type"] for m in kiosk.told].count("problem") == 1
+
+
+@pytest.mark.parametrize(
+    ("path", "code", "words"),
+    [
+        ("/missing", "source-unreachable", "404"),
+        ("/locked", "source-unreachable", "name and password"),
+        ("/still", "source-unreadable", "image/jpeg"),
+    ],
+)
+def test_what_is_no_stream_is_said_with_what_to_do(
+    plant: Plant, soon: None, path: str, code: str, words: str
+) -> None:
+    with camera_on(MjpegHandler, Stage()) as camera:
+        add_station(plant, source=f"http://joe:wrong@127.0.0.1:{port_of(camera)}{path}")
+        with connected(plant) as kiosk:
+            opened(kiosk)
+            problem = kiosk.until("problem")
+
+    assert problem["code"] == code
+    assert words in problem["detail"]
+    assert "wrong" not in problem["detail"]
+
+
+def test_a_monitor_sees_the_stream_too(plant: Plant) -> None:
+    with camera_on(MjpegHandler, Stage()) as camera:
+        add_station(plant, source=f"http://joe:s3cret@127.0.0.1:{port_of(camera)}/locked")
+        with connected(plant, kind="monitor", role=Role.VIEWER) as monitor, connected(plant) as kiosk:
+            opened(kiosk)
+            monitor.until("state")
+            kiosk.until("state")
+
+    assert monitor.jpeg[:2] == b"\xff\xd8"
+
+
+def test_a_folder_is_replayed_without_counting_for_the_line(plant: Plant, tmp_path: Path) -> None:
+    folder = tmp_path / "frames" / "unit7"
+    folder.mkdir()
+    for index in range(2):
+        cv2.imwrite(str(folder / f"{index}.png"), pixels(index))
+    add_station(plant, source="file:unit7")
+    with connected(plant) as kiosk:
+        run = opened(kiosk)
+        accepted = kiosk.captures(2)
+
+    np.testing.assert_array_equal(stored_image(plant, accepted["capture_id"]), pixels(accepted["pose_index"]))
+    assert run["purpose"] == "simulated"
