@@ -49,7 +49,8 @@ def read_scan(jpeg: bytes) -> Scan:
 
 def packets(jpeg: bytes, first: int, timestamp: int) -> list[bytes]:
     """The RTP packets of a picture; the first has the number `first`."""
-    scan, found = read_scan(jpeg), []
+    scan = read_scan(jpeg)
+    found: list[bytes] = []
     for at in range(0, len(scan.code), PAYLOAD_BYTES):
         part = scan.code[at : at + PAYLOAD_BYTES]
         last = MARKER if at + PAYLOAD_BYTES >= len(scan.code) else 0

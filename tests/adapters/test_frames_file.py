@@ -1,5 +1,6 @@
 """Folders and videos that are replayed, and what must not be read."""
 
+import time
 from itertools import islice
 from pathlib import Path
 
@@ -18,7 +19,7 @@ MOST = 1_000_000
 @pytest.fixture(autouse=True)
 def fast(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nobody waits for the time of the film."""
-    monkeypatch.setattr(frames_file.time, "sleep", lambda seconds: None)
+    monkeypatch.setattr(time, "sleep", lambda seconds: None)
 
 
 @pytest.fixture
@@ -33,7 +34,7 @@ def frames(tmp_path: Path) -> Path:
 
 
 def write_video(path: Path, code: str = "FFV1", count: int = 3) -> None:
-    writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, cv2.VideoWriter_fourcc(*code), 30.0, (640, 400))
+    writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, cv2.VideoWriter.fourcc(*code), 30.0, (640, 400))
     for index in range(count):
         writer.write(cv2.cvtColor(pixels(index), cv2.COLOR_GRAY2BGR))
     writer.release()

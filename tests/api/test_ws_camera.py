@@ -48,7 +48,8 @@ def stored_image(plant: Plant, capture_id: str) -> Any:
 
 def grey_of(jpeg: bytes) -> Any:
     """What a decoder makes of a colour JPEG, in grey."""
-    return cv2.cvtColor(cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR), cv2.COLOR_BGR2GRAY)
+    colour = np.asarray(cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR))
+    return cv2.cvtColor(colour, cv2.COLOR_BGR2GRAY)
 
 
 def test_a_run_is_guided_on_an_mjpeg_stream_to_a_pass(plant: Plant) -> None:

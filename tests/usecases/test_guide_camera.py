@@ -161,7 +161,8 @@ def test_a_camera_that_stays_away_is_tried_more_and_more_slowly(monkeypatch: pyt
         tried_s.append(monotonic())
         if len(tried_s) > 6:
             enough.set()
-        raise SourceUnreachable("It is off. Switch it on.")
+        if tried_s:
+            raise SourceUnreachable("It is off. Switch it on.")
         yield picture(0)
 
     with reading(refuse) as camera:
