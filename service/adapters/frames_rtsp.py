@@ -16,11 +16,12 @@ from service.core.guidance.problems import SourceStalled, SourceUnreachable, Sou
 from service.ports import Grabbed
 
 CONNECT_S = 4.0
+OPEN_S = 8.0  # a stream is known once its first whole picture has come, and cameras may send one every few s
 READ_S = 3.0
 RTSP_PORT = 554
 # One thread: with several, FFmpeg holds back as many frames as it has threads.
 OPTIONS = (
-    *(cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, int(1000 * CONNECT_S)),
+    *(cv2.CAP_PROP_OPEN_TIMEOUT_MSEC, int(1000 * OPEN_S)),
     *(cv2.CAP_PROP_READ_TIMEOUT_MSEC, int(1000 * READ_S)),
     *(cv2.CAP_PROP_N_THREADS, 1),
 )

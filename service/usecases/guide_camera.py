@@ -32,6 +32,7 @@ from service.usecases.guide_frames import Pixels
 from service.usecases.guide_views import CameraView
 from service.usecases.images import check_image, decode_image
 
+STALE_S = 1.0  # a frame that waited longer says nothing about now
 KEPT_S = 1.5  # how long a judged frame can be asked for a capture
 FIRST_WAIT_S = 0.25  # before a camera is connected again; doubled each time
 LONGEST_WAIT_S = 4.0
@@ -96,10 +97,13 @@ class Camera:
     def next_frame(self, timeout_s: float) -> CameraFrame | None:
         """Return the newest frame that was not returned before; None when none can be had in this time.
 
-        Of those that came meanwhile only the newest is decoded; one that cannot be decoded is passed over.
+        Of those that came meanwhile only the newest is decoded. One that is old, or cannot be decoded, is
+        passed over.
         """
         until_s = monotonic() + timeout_s
         while (arrival := self._wait(until_s - monotonic())) is not None:
+            if monotonic() - arrival.at_s > STALE_S:
+                continue
             try:
                 image = _pixels_of(arrival.grabbed, self._largest_pixels)
             except (ImageFormatUnsupported, ImageTooLarge, ImageUnreadable) as error:

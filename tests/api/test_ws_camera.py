@@ -41,6 +41,11 @@ def opened(kiosk: Client) -> dict[str, Any]:
     return kiosk.until("run")
 
 
+def told(kiosk: Client, code: str) -> dict[str, Any]:
+    """The problem of this code; that of a camera which is still being connected may come before it."""
+    return kiosk.until(lambda m: m["type"] == "problem" and m["code"] == code)
+
+
 def stored_image(plant: Plant, capture_id: str) -> Any:
     content = plant.get(f"/captures/{capture_id}/image").content
     return cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_UNCHANGED)
@@ -114,11 +119,11 @@ def test_a_stream_that_stalls_is_said_and_goes_on(plant: Plant, soon: None) -> N
             opened(kiosk)
             kiosk.until("state")
             stage.stalls = True
-            problem = kiosk.until("problem")
+            problem = told(kiosk, "source-stalled")
             stage.stalls = False
             kiosk.until("state")
 
-    assert problem["code"] == "source-stalled"
+    assert "goes on by itself" in problem["detail"]
 
 
 @pytest.mark.parametrize(("handler", "scheme"), [(MjpegHandler, "http"), (RtspHandler, "rtsp")])
@@ -133,7 +138,7 @@ def test_a_camera_that_vanishes_is_said_and_comes_back_by_itself(
             opened(kiosk)
             kiosk.until("state")
             first_time.close()
-            problem = kiosk.until(lambda m: m["type"] == "problem" and m["code"] == "source-unreachable")
+            problem = told(kiosk, "source-unreachable")
             with camera_on(handler, stage, port_of(camera)):
                 kiosk.until("state")
 
@@ -169,12 +174,12 @@ def test_pictures_of_another_size_are_told_once_and_guidance_goes_on(plant: Plan
         add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
         with connected(plant) as kiosk:
             opened(kiosk)
-            problem = kiosk.until("problem")
+            problem = told(kiosk, "wrong-image-size")
             stage.show(0)
             kiosk.until("state")
 
-    assert (problem["code"], problem["facts"]["found"]) == ("wrong-image-size", [400, 304])
-    assert [m["type"] for m in kiosk.told].count("problem") == 1
+    assert problem["facts"]["found"] == [400, 304]
+    assert [m.get("code") for m in kiosk.told].count("wrong-image-size") == 1
 
 
 @pytest.mark.parametrize(
@@ -192,9 +197,8 @@ def test_what_is_no_stream_is_said_with_what_to_do(
         add_station(plant, source=f"http://joe:wrong@127.0.0.1:{port_of(camera)}{path}")
         with connected(plant) as kiosk:
             opened(kiosk)
-            problem = kiosk.until("problem")
+            problem = told(kiosk, code)
 
-    assert problem["code"] == code
     assert words in problem["detail"]
     assert "wrong" not in problem["detail"]
 

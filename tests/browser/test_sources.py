@@ -65,8 +65,8 @@ def test_a_camera_that_stalls_is_said_at_the_kiosk_until_it_is_back(
 ) -> None:
     page.set_viewport_size({"width": 1920, "height": 1080})
     page.goto(f"{stations.url}/kiosk?station=own#key={stations.key}")
-    page.keyboard.press("F2")
     expect(page.locator(".count")).to_be_visible()
+    page.keyboard.press("F2")
     camera.stage.stalls = True
     problem = page.locator("[data-problem]")
     expect(problem).to_have_attribute("data-problem", "source-stalled")

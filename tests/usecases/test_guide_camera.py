@@ -87,6 +87,18 @@ def test_without_a_frame_nothing_is_returned_and_why_is_known() -> None:
         assert camera.trouble.code == "source-stalled"
 
 
+def test_a_frame_from_before_a_stall_is_not_shown_as_the_present(monkeypatch: pytest.MonkeyPatch) -> None:
+    wire = Wire()
+    with reading(wire.read) as camera:
+        wire.put(picture(1))
+        monkeypatch.setattr(guide_camera, "STALE_S", 0.0)
+        assert camera.next_frame(0.01) is None
+        monkeypatch.undo()
+        wire.things.put(picture(2))
+
+        assert frame_of(camera).image[0, 0] == 2
+
+
 def test_a_frame_that_was_returned_can_be_captured_and_no_other() -> None:
     wire = Wire()
     with reading(wire.read) as camera:
