@@ -87,7 +87,8 @@ class Camera:
             "The camera has not sent a picture yet. It is being connected; if this stays, check its cable, "
             "power and address."
         )
-        threading.Thread(target=self._run, name="camera", daemon=True).start()
+        # No daemon: a process must not end while FFmpeg is at work in one of its threads.
+        threading.Thread(target=self._run, name="camera").start()
 
     @property
     def trouble(self) -> ServiceError | None:

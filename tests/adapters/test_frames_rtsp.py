@@ -1,6 +1,8 @@
 """RTSP: a real stream, and cameras that are not there or not to be read."""
 
 import socket
+import subprocess
+import sys
 from contextlib import closing
 
 import cv2
@@ -66,3 +68,18 @@ def test_what_answers_but_speaks_no_rtsp_is_said(
 
     said = capfd.readouterr()
     assert "s3cret" not in said.out + said.err
+
+
+def test_a_process_that_ends_while_a_stream_is_read_ends_in_order() -> None:
+    script = (
+        "import sys; from functools import partial; from service.adapters.frames_rtsp import read_rtsp; "
+        "from service.usecases.guide_camera import Camera; "
+        "camera = Camera(partial(read_rtsp, sys.argv[1], 10**6), 10**6); "
+        "frame = camera.next_frame(20.0); camera.close(); print(frame.image.shape)"
+    )
+    with camera_on(RtspHandler, Stage()) as camera:
+        ended = subprocess.run(  # noqa: S603 - our own interpreter
+            [sys.executable, "-c", script, address(camera)], capture_output=True, text=True, check=False
+        )
+
+    assert (ended.returncode, ended.stdout) == (0, "(400, 640)\n"), ended.stderr
