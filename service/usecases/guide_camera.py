@@ -12,6 +12,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from time import monotonic
 
+import cv2
 import numpy as np
 
 from service.core.errors import (
@@ -36,7 +37,13 @@ STALE_S = 1.0  # a frame that waited longer says nothing about now
 KEPT_S = 1.5  # how long a judged frame can be asked for a capture
 FIRST_WAIT_S = 0.25  # before a camera is connected again; doubled each time
 LONGEST_WAIT_S = 4.0
+CONNECTING_S = 5.0  # a stream begins with a whole picture, for which it may wait a while
 RATE_S = 2.0  # over which the rate of the camera is measured
+
+NO_PICTURE_YET = SourceStalled(
+    "The camera has not sent a picture yet. It is being connected; if this stays, check its cable, power and "
+    "address."
+)
 
 log = logging.getLogger(__name__)
 
@@ -81,12 +88,10 @@ class Camera:
         self._closed = threading.Event()
         self._newest: _Arrival | None = None
         self._arrived = 0
+        self._began_s = monotonic()
         self._times: deque[float] = deque()
         self._kept: OrderedDict[int, CameraFrame] = OrderedDict()
-        self._trouble: ServiceError | None = SourceStalled(
-            "The camera has not sent a picture yet. It is being connected; if this stays, check its cable, "
-            "power and address."
-        )
+        self._trouble: ServiceError | None = NO_PICTURE_YET
         # No daemon: a process must not end while FFmpeg is at work in one of its threads.
         threading.Thread(target=self._run, name="camera").start()
 
@@ -94,6 +99,12 @@ class Camera:
     def trouble(self) -> ServiceError | None:
         """Why no picture comes, as far as it is known."""
         return self._trouble
+
+    @property
+    def is_connecting(self) -> bool:
+        """Whether it is too early to miss its pictures."""
+        is_new = monotonic() - self._began_s < CONNECTING_S
+        return is_new and self._arrived == 0 and self._trouble is NO_PICTURE_YET
 
     def next_frame(self, timeout_s: float) -> CameraFrame | None:
         """Return the newest frame that was not returned before; None when none can be had in this time.
@@ -219,4 +230,13 @@ def _pixels_of(grabbed: Grabbed, largest_pixels: int) -> Pixels:
             f"{name} has {header.width}x{header.height} px; at most {largest_pixels} px are accepted.",
             largest_pixels=largest_pixels,
         )
-    return decode_image(grabbed.picture, name)
+    if header.format != "JPEG":
+        return decode_image(grabbed.picture, name)
+    # The grey of a JPEG is a part of its own: as the camera sent it, and in half the time of its colours.
+    pixels = cv2.imdecode(
+        np.frombuffer(grabbed.picture, np.uint8), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION
+    )
+    # The stubs do not know that imdecode answers None for bytes it cannot read.
+    if not isinstance(pixels, np.ndarray) or pixels.shape != (header.height, header.width):
+        raise ImageUnreadable(f"{name} cannot be decoded.")
+    return np.asarray(pixels, dtype=np.uint8)

@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import cv2
@@ -13,6 +14,7 @@ import pytest
 from service.api.ws import drivers
 from service.storage.models import AuditEntryRow
 from service.storage.words import Role
+from service.usecases import guide_camera
 from tests.guiding import Client, add_station, connected, pixels
 from tests.plant import Plant, poses_json, running_plant
 from tests.rtsp import RtspHandler
@@ -124,6 +126,26 @@ def test_a_stream_that_stalls_is_said_and_goes_on(plant: Plant, soon: None) -> N
             kiosk.until("state")
 
     assert "goes on by itself" in problem["detail"]
+
+
+def test_a_stream_that_is_being_connected_has_not_stalled_yet(
+    plant: Plant, soon: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(guide_camera, "CONNECTING_S", 1.0)
+    stage = Stage(stalls=True)
+    with camera_on(MjpegHandler, stage) as camera:
+        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant) as kiosk:
+            opened(kiosk)
+            began_s = monotonic()
+            problem = told(kiosk, "source-stalled")
+            waited_s = monotonic() - began_s
+            stage.stalls = False
+            kiosk.until("state")
+
+    assert "not sent a picture yet" in problem["detail"]
+    # A lower bound: told at once it would come after 0.4 s.
+    assert waited_s > 0.8
 
 
 @pytest.mark.parametrize(("handler", "scheme"), [(MjpegHandler, "http"), (RtspHandler, "rtsp")])

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from queue import Queue
 from time import monotonic
 
+import cv2
 import numpy as np
 import pytest
 
@@ -137,6 +138,29 @@ def test_a_picture_that_cannot_be_decoded_is_passed_over_and_said() -> None:
 
         assert frame_of(camera).image[0, 0] == 7
         assert camera.trouble is None
+
+
+def test_the_grey_of_a_colour_jpeg_is_the_one_that_the_camera_sent() -> None:
+    wire = Wire()
+    colours = np.random.default_rng(3).integers(0, 256, (64, 48, 3), dtype=np.uint8)
+    jpeg = encode(colours, ".jpg")
+    with reading(wire) as camera:
+        wire.things.put(Grabbed(jpeg))
+        grey = frame_of(camera).image
+
+    luma = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_GRAYSCALE)
+    np.testing.assert_array_equal(grey, luma)
+
+
+def test_a_jpeg_that_is_cut_off_is_passed_over() -> None:
+    wire = Wire()
+    jpeg = encode(np.full((64, 48), 9, np.uint8), ".jpg")
+    with reading(wire) as camera:
+        wire.put(Grabbed(jpeg[:-40]))
+        assert camera.next_frame(0.01) is None
+        wire.things.put(Grabbed(jpeg))
+
+        assert frame_of(camera).image.shape == (64, 48)
 
 
 def test_a_picture_that_is_too_large_is_not_decoded() -> None:

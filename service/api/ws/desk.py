@@ -61,7 +61,9 @@ class Desk:
 
     @property
     def awaits_frames(self) -> bool:
-        """Whether frames should be coming; a source in the service takes a while to be made."""
+        """Whether frames should be coming; a source in the service takes a while to be made or connected."""
+        if isinstance(self.source, Camera) and self.source.is_connecting:
+            return False
         return self.is_guiding and (self._origin is FrameOrigin.BROWSER or self.source is not None)
 
     @property
