@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from tests.guiding import Client, pixels
 
 FRAME_S = 1 / 40
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 NONCE = "7d1c3f"
 Handler = Callable[..., BaseRequestHandler]
 

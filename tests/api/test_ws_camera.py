@@ -1,6 +1,7 @@
 """The guidance socket at a station whose camera the service reads: real streams, over real connections."""
 
 import json
+import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -23,13 +24,26 @@ from tests.streams import MjpegHandler, Stage, camera_on, jpeg_of_pose, port_of,
 POSES = len(poses_json())
 
 
-@pytest.fixture
-def plant(sqlite_address: str, tmp_path: Path) -> Iterator[Plant]:
-    """A plant with a published SKU, which may replay what is in `frames`."""
-    (tmp_path / "frames").mkdir()
-    with running_plant(sqlite_address, tmp_path, frames_dir=str(tmp_path / "frames")) as running:
+@pytest.fixture(scope="module")
+def frames(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The directory of what may be replayed."""
+    return tmp_path_factory.mktemp("frames")
+
+
+@pytest.fixture(scope="module")
+def plant(frames: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plant]:
+    """A plant with a published SKU; each test has a station of its own."""
+    directory = tmp_path_factory.mktemp("cameras")
+    address = f"sqlite:///{directory / 'dmscal.db'}"
+    with running_plant(address, directory, frames_dir=str(frames)) as running:
         running.publish_sku()
         yield running
+
+
+@pytest.fixture
+def code(request: pytest.FixtureRequest) -> str:
+    """The station of this test, and the serial of its vehicle."""
+    return f"cal-{zlib.crc32(request.node.name.encode()):08x}"
 
 
 @pytest.fixture
@@ -38,8 +52,8 @@ def soon(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drivers, "STALLED_S", 0.4)
 
 
-def opened(kiosk: Client) -> dict[str, Any]:
-    kiosk.say("open_run", serial="VIN-1", sku="tiny")
+def opened(kiosk: Client, serial: str) -> dict[str, Any]:
+    kiosk.say("open_run", serial=serial, sku="tiny")
     return kiosk.until("run")
 
 
@@ -59,12 +73,12 @@ def grey_of(jpeg: bytes) -> Any:
     return cv2.cvtColor(colour, cv2.COLOR_BGR2GRAY)
 
 
-def test_a_run_is_guided_on_an_mjpeg_stream_to_a_pass(plant: Plant) -> None:
+def test_a_run_is_guided_on_an_mjpeg_stream_to_a_pass(plant: Plant, code: str) -> None:
     stage = Stage()
     with camera_on(MjpegHandler, stage) as camera:
-        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
-        with connected(plant) as kiosk:
-            run = opened(kiosk)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant, code) as kiosk:
+            run = opened(kiosk, code)
             verdict = stage.obey(kiosk, "verdict")
             assert kiosk.jpeg[:2] == b"\xff\xd8"
 
@@ -73,12 +87,12 @@ def test_a_run_is_guided_on_an_mjpeg_stream_to_a_pass(plant: Plant) -> None:
     assert kiosk.told[0]["source"] == "mjpeg"
 
 
-def test_a_run_is_guided_on_an_rtsp_stream_to_a_pass(plant: Plant) -> None:
+def test_a_run_is_guided_on_an_rtsp_stream_to_a_pass(plant: Plant, code: str) -> None:
     stage = Stage()
     with camera_on(RtspHandler, stage) as camera:
-        add_station(plant, source=f"rtsp://joe:s3cret@127.0.0.1:{port_of(camera)}/stream1")
-        with connected(plant) as kiosk:
-            run = opened(kiosk)
+        add_station(plant, code, f"rtsp://joe:s3cret@127.0.0.1:{port_of(camera)}/stream1")
+        with connected(plant, code) as kiosk:
+            run = opened(kiosk, code)
             verdict = stage.obey(kiosk, "verdict")
 
     stored = plant.get(f"/runs/{run['run_id']}").json()
@@ -87,12 +101,12 @@ def test_a_run_is_guided_on_an_rtsp_stream_to_a_pass(plant: Plant) -> None:
     assert "s3cret" not in str(kiosk.told)
 
 
-def test_the_capture_is_the_very_frame_that_was_judged(plant: Plant) -> None:
+def test_the_capture_is_the_very_frame_that_was_judged(plant: Plant, code: str) -> None:
     stage = Stage()
     with camera_on(MjpegHandler, stage) as camera:
-        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/bare")
-        with connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/bare")
+        with connected(plant, code) as kiosk:
+            run = opened(kiosk, code)
             accepted = stage.obey(kiosk, "capture_accepted")
             # The board is gone before anybody looks at what was stored.
             stage.jpeg = to_jpeg(np.full_like(pixels(0), 90))
@@ -104,7 +118,12 @@ def test_the_capture_is_the_very_frame_that_was_judged(plant: Plant) -> None:
     assert state["camera"]["source_s"] > 0
     assert state["round_trip_ms"] > 0
     with plant.app.state.services.database.read() as session:
-        facts = [row.facts for row in session.query(AuditEntryRow).filter_by(action="capture.add")]
+        facts = [
+            row.facts
+            for row in session.query(AuditEntryRow).filter_by(
+                action="capture.add", subject=f"run:{run['run_id']}"
+            )
+        ]
     assert facts[0]["frame"] >= 1
     assert facts[0]["source_s"] > 0
 
@@ -113,12 +132,12 @@ def test_a_stall_is_said_within_two_seconds() -> None:
     assert drivers.STALLED_S + drivers.WATCH_S < 2.0
 
 
-def test_a_stream_that_stalls_is_said_and_goes_on(plant: Plant, soon: None) -> None:
+def test_a_stream_that_stalls_is_said_and_goes_on(plant: Plant, code: str, soon: None) -> None:
     stage = Stage()
     with camera_on(MjpegHandler, stage) as camera:
-        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
-        with connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant, code) as kiosk:
+            opened(kiosk, code)
             kiosk.until("state")
             stage.stalls = True
             problem = told(kiosk, "source-stalled")
@@ -129,14 +148,14 @@ def test_a_stream_that_stalls_is_said_and_goes_on(plant: Plant, soon: None) -> N
 
 
 def test_a_stream_that_is_being_connected_has_not_stalled_yet(
-    plant: Plant, soon: None, monkeypatch: pytest.MonkeyPatch
+    plant: Plant, code: str, soon: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(guide_camera, "CONNECTING_S", 1.0)
     stage = Stage(stalls=True)
     with camera_on(MjpegHandler, stage) as camera:
-        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
-        with connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant, code) as kiosk:
+            opened(kiosk, code)
             began_s = monotonic()
             problem = told(kiosk, "source-stalled")
             waited_s = monotonic() - began_s
@@ -150,14 +169,14 @@ def test_a_stream_that_is_being_connected_has_not_stalled_yet(
 
 @pytest.mark.parametrize(("handler", "scheme"), [(MjpegHandler, "http"), (RtspHandler, "rtsp")])
 def test_a_camera_that_vanishes_is_said_and_comes_back_by_itself(
-    plant: Plant, soon: None, handler: Any, scheme: str
+    plant: Plant, code: str, soon: None, handler: Any, scheme: str
 ) -> None:
     stage = Stage()
     with ExitStack() as first_time:
         camera = first_time.enter_context(camera_on(handler, stage))
-        add_station(plant, source=f"{scheme}://joe:s3cret@127.0.0.1:{port_of(camera)}/locked")
-        with connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"{scheme}://joe:s3cret@127.0.0.1:{port_of(camera)}/locked")
+        with connected(plant, code) as kiosk:
+            opened(kiosk, code)
             kiosk.until("state")
             first_time.close()
             problem = told(kiosk, "source-unreachable")
@@ -168,11 +187,14 @@ def test_a_camera_that_vanishes_is_said_and_comes_back_by_itself(
     assert "s3cret" not in str(problem)
 
 
-def test_a_client_that_is_slow_gets_fewer_pictures_and_none_that_are_old(plant: Plant) -> None:
+def test_a_client_that_is_slow_gets_fewer_pictures_and_none_that_are_old(plant: Plant, code: str) -> None:
     with camera_on(MjpegHandler, Stage()) as camera:
-        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
-        with connected(plant, kind="monitor", role=Role.VIEWER) as slow, connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/stream")
+        with (
+            connected(plant, code, kind="monitor", role=Role.VIEWER) as slow,
+            connected(plant, code) as kiosk,
+        ):
+            opened(kiosk, code)
             seen = [sequence_of(slow) for _ in range(2)]
             while kiosk.until("state")["sequence"] < seen[-1] + 12:
                 continue
@@ -190,12 +212,12 @@ def sequence_of(client: Client) -> int:
     return int(json.loads(content[4 : 4 + int.from_bytes(content[:4], "little")])["sequence"])
 
 
-def test_pictures_of_another_size_are_told_once_and_guidance_goes_on(plant: Plant) -> None:
+def test_pictures_of_another_size_are_told_once_and_guidance_goes_on(plant: Plant, code: str) -> None:
     stage = Stage(jpeg=to_jpeg(np.zeros((304, 400), np.uint8)))
     with camera_on(MjpegHandler, stage) as camera:
-        add_station(plant, source=f"http://127.0.0.1:{port_of(camera)}/stream")
-        with connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant, code) as kiosk:
+            opened(kiosk, code)
             problem = told(kiosk, "wrong-image-size")
             stage.show(0)
             kiosk.until("state")
@@ -205,7 +227,7 @@ def test_pictures_of_another_size_are_told_once_and_guidance_goes_on(plant: Plan
 
 
 @pytest.mark.parametrize(
-    ("path", "code", "words"),
+    ("path", "problem_code", "words"),
     [
         ("/missing", "source-unreachable", "404"),
         ("/locked", "source-unreachable", "name and password"),
@@ -213,37 +235,40 @@ def test_pictures_of_another_size_are_told_once_and_guidance_goes_on(plant: Plan
     ],
 )
 def test_what_is_no_stream_is_said_with_what_to_do(
-    plant: Plant, soon: None, path: str, code: str, words: str
+    plant: Plant, code: str, soon: None, path: str, problem_code: str, words: str
 ) -> None:
     with camera_on(MjpegHandler, Stage()) as camera:
-        add_station(plant, source=f"http://joe:wrong@127.0.0.1:{port_of(camera)}{path}")
-        with connected(plant) as kiosk:
-            opened(kiosk)
-            problem = told(kiosk, code)
+        add_station(plant, code, f"http://joe:wrong@127.0.0.1:{port_of(camera)}{path}")
+        with connected(plant, code) as kiosk:
+            opened(kiosk, code)
+            problem = told(kiosk, problem_code)
 
     assert words in problem["detail"]
     assert "wrong" not in problem["detail"]
 
 
-def test_a_monitor_sees_the_stream_too(plant: Plant) -> None:
+def test_a_monitor_sees_the_stream_too(plant: Plant, code: str) -> None:
     with camera_on(MjpegHandler, Stage()) as camera:
-        add_station(plant, source=f"http://joe:s3cret@127.0.0.1:{port_of(camera)}/locked")
-        with connected(plant, kind="monitor", role=Role.VIEWER) as monitor, connected(plant) as kiosk:
-            opened(kiosk)
+        add_station(plant, code, f"http://joe:s3cret@127.0.0.1:{port_of(camera)}/locked")
+        with (
+            connected(plant, code, kind="monitor", role=Role.VIEWER) as monitor,
+            connected(plant, code) as kiosk,
+        ):
+            opened(kiosk, code)
             monitor.until("state")
             kiosk.until("state")
 
     assert monitor.jpeg[:2] == b"\xff\xd8"
 
 
-def test_a_folder_is_replayed_without_counting_for_the_line(plant: Plant, tmp_path: Path) -> None:
-    folder = tmp_path / "frames" / "unit7"
+def test_a_folder_is_replayed_without_counting_for_the_line(plant: Plant, code: str, frames: Path) -> None:
+    folder = frames / "unit7"
     folder.mkdir()
     for index in range(2):
         cv2.imwrite(str(folder / f"{index}.png"), pixels(index))
-    add_station(plant, source="file:unit7")
-    with connected(plant) as kiosk:
-        run = opened(kiosk)
+    add_station(plant, code, "file:unit7")
+    with connected(plant, code) as kiosk:
+        run = opened(kiosk, code)
         accepted = kiosk.captures(2)
 
     np.testing.assert_array_equal(stored_image(plant, accepted["capture_id"]), pixels(accepted["pose_index"]))
