@@ -164,8 +164,7 @@ class GuidedSession:
             return []
         self._wanted = None
         error = FrameMissing(
-            "The kiosk's camera did not send the full picture in time. Hold the board still; the pose is "
-            "taken again.",
+            "The full picture did not come in time. Hold the board still; the pose is taken again.",
             sequence=sequence,
         )
         return self._refuse(wanted.pose_index, error)

@@ -13,9 +13,11 @@ import numpy as np
 import pytest
 
 from service.api.ws import drivers
+from service.core.guidance.problems import FrameForgotten
 from service.storage.models import AuditEntryRow
 from service.storage.words import Role
 from service.usecases import guide_camera
+from service.usecases.guide_camera import Camera
 from tests.guiding import Client, add_station, connected, pixels
 from tests.plant import Plant, poses_json, running_plant
 from tests.rtsp import RtspHandler
@@ -126,6 +128,29 @@ def test_the_capture_is_the_very_frame_that_was_judged(plant: Plant, code: str) 
         ]
     assert facts[0]["frame"] >= 1
     assert facts[0]["source_s"] > 0
+
+
+def forget(camera: Camera, sequence: int) -> Any:
+    """What a camera answers when the frame was judged too slowly."""
+    camera._kept.clear()
+    raise FrameForgotten("It is gone. Hold still.", sequence=sequence)
+
+
+def test_a_frame_that_is_no_longer_kept_is_said_and_the_pose_is_taken_again(
+    plant: Plant, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stage = Stage()
+    with camera_on(MjpegHandler, stage) as camera, monkeypatch.context() as patch:
+        patch.setattr(Camera, "capture", forget)
+        add_station(plant, code, f"http://127.0.0.1:{port_of(camera)}/stream")
+        with connected(plant, code) as kiosk:
+            opened(kiosk, code)
+            refused = stage.obey(kiosk, "capture_refused")
+            patch.undo()
+            accepted = stage.obey(kiosk, "capture_accepted")
+
+    assert refused["code"] == "frame-missing"
+    assert accepted["pose_index"] == refused["pose_index"]
 
 
 def test_a_stall_is_said_within_two_seconds() -> None:
