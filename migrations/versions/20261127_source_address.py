@@ -1,6 +1,6 @@
 """A station's source may be the address of a camera that the service reads.
 
-Revision 2f7a90c4e1d3, after c41e97d2a6b8, 2026-11-27 10:00 UTC.
+Revision 2f7a90c4e1d3, after 3f7a9d52c18e, 2026-11-27 10:00 UTC.
 """
 
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ import sqlalchemy as sa
 from alembic import op
 
 revision: str = "2f7a90c4e1d3"
-down_revision: str | Sequence[str] | None = "c41e97d2a6b8"
+down_revision: str | Sequence[str] | None = "3f7a9d52c18e"
 branch_labels: str | Sequence[str] | None = None
 depends_on: str | Sequence[str] | None = None
 

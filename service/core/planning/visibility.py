@@ -3,9 +3,11 @@
 Not here: which bounds that must meet (`pose_space`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.camera import LENSES, Intrinsics, project, undistort
 from service.core.vision.target import Chessboard
@@ -24,18 +26,48 @@ LENS_SHARE = 0.98
 
 @dataclass(frozen=True)
 class Visibility:
-    """What m poses look like; every array (m,), NaN where a corner is behind the camera.
+    """What m poses look like; arrays (m,), NaN for a corner behind the camera; image_points (m, n, 2) px.
 
     clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
     shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
     to a corner. lens_share: largest ideal radius of a corner over the radius up to which the lens model is
-    monotone.
+    monotone. nearest_m, farthest_m: smallest and largest depth of a corner. columns: of the target's corners.
     """
 
     clearance_px: Array
     smallest_square_px: Array
     incidence_rad: Array
     lens_share: Array
+    nearest_m: Array
+    farthest_m: Array
+    image_points: Array
+    columns: int
+
+    @property
+    def skew(self) -> Array:
+        """Mean |sin 2θ| (m,) of the edges' angle θ to the pixel grid, of rows or columns, whichever is less.
+
+        0 where edges run along the pixel grid, 1 where all run at 45° to it.
+        """
+        grid = self.image_points.reshape(len(self.image_points), -1, self.columns, 2)
+        means = []
+        for axis in (1, 2):
+            x, y = np.moveaxis(np.diff(grid, axis=axis), -1, 0)
+            means.append(np.mean(np.abs(2.0 * x * y) / (x * x + y * y), axis=(1, 2)))
+        skew: Array = np.minimum(*means)
+        return skew
+
+    def part(self, index: NDArray[np.bool_] | slice) -> "Visibility":
+        """Return what some of the poses look like."""
+        arrays = {name: value[index] for name, value in self.__dict__.items() if name != "columns"}
+        return Visibility(**arrays, columns=self.columns)
+
+    @staticmethod
+    def join(parts: "Sequence[Visibility]") -> "Visibility":
+        """Return what the poses of all parts look like, in their order."""
+        names = [name for name in parts[0].__dict__ if name != "columns"]
+        arrays = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+        return Visibility(**arrays, columns=parts[0].columns)
 
 
 def measure_visibility(
@@ -48,12 +80,17 @@ def measure_visibility(
     pixels = project(intrinsics, rotations, translations, target.object_points)
     to_border = np.minimum(pixels, np.array(intrinsics.image_size) - 1.0 - pixels)
     limit = LENSES[intrinsics.lens].monotone_radius(intrinsics.vector[4:])
-    cosine = np.einsum("mni,mi->mn", points, rotations[:, :, 2]) / np.linalg.norm(points, axis=-1)
+    length = np.sqrt(points[..., 0] ** 2 + points[..., 1] ** 2 + depth**2)
+    cosine = (points @ rotations[:, :, 2, None])[..., 0] / length
     return Visibility(
         clearance_px=to_border.min(axis=(1, 2)),
         smallest_square_px=_shortest_side(pixels, target),
-        incidence_rad=np.arccos(np.clip(cosine, -1.0, 1.0)).max(axis=1),
-        lens_share=np.linalg.norm(ideal, axis=-1).max(axis=1) / limit,
+        incidence_rad=np.arccos(np.clip(cosine.min(axis=1), -1.0, 1.0)),
+        lens_share=np.sqrt((ideal[..., 0] ** 2 + ideal[..., 1] ** 2).max(axis=1)) / limit,
+        nearest_m=depth.min(axis=1),
+        farthest_m=depth.max(axis=1),
+        image_points=pixels,
+        columns=target.columns,
     )
 
 
