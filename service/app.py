@@ -7,6 +7,7 @@ import logging
 import sys
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
+from functools import partial
 from pathlib import Path
 
 from anyio import to_thread
@@ -14,19 +15,26 @@ from fastapi import FastAPI
 
 from service.adapters.blobs_files import FileBlobs
 from service.adapters.clock_system import SystemClock
+from service.adapters.frames_file import read_file
+from service.adapters.frames_mjpeg import read_mjpeg
+from service.adapters.frames_rtsp import read_rtsp
+from service.adapters.frames_v4l2 import read_v4l2
 from service.adapters.jobs_threads import ThreadJobs
 from service.api.application import create_api
 from service.api.dependencies import Services
 from service.api.ws.desk import Desks
 from service.api.ws.drivers import Pace
 from service.api.ws.guidance import Guidance
-from service.ports import Clock, FrameSourceMaker
+from service.ports import Clock, FrameReader, FrameSourceMaker
 from service.settings import Settings
 from service.simulator.virtual_station import source_of_serial
 from service.storage.database import Database
 from service.storage.migration import check_at_head, upgrade
+from service.storage.words import FrameOrigin
 from service.usecases.access import create_first_key
+from service.usecases.frame_address import origin_of
 from service.usecases.guide import Plant
+from service.usecases.guide_camera import Camera, CameraOpener
 from service.usecases.planning import PLAN_POSE_SET, plan_pose_set_job
 
 # A request's transaction outlasts the thread that began it: its commit needs one again. If all threads could
@@ -112,6 +120,7 @@ def create_services(settings: Settings, database: Database, jobs: ThreadJobs, cl
         jobs=jobs,
         clock=clock,
         max_image_pixels=settings.max_image_megapixels * 1_000_000,
+        has_frames_dir=bool(settings.frames_dir),
         checks=checks,
     )
 
@@ -122,7 +131,24 @@ def create_guidance(settings: Settings, services: Services, make_source: FrameSo
     speed = settings.virtual_speed
     # Whoever is in a hurry sees fewer frames of the same movement.
     pace = Pace(speed=speed) if speed <= 1 else Pace(frames_per_s=HURRIED_FRAMES_PER_S, speed=speed)
-    return Guidance(plant, Desks(plant), make_source, pace)
+    return Guidance(plant, Desks(plant), make_source, create_camera_opener(settings), pace)
+
+
+def create_camera_opener(settings: Settings) -> CameraOpener:
+    """Return what opens the sources of stations whose cameras the service reads."""
+    directory = Path(settings.frames_dir) if settings.frames_dir else None
+    most = settings.max_image_megapixels * 1_000_000
+
+    def open_camera(source: str, image_size: tuple[int, int]) -> Camera:
+        readers: dict[FrameOrigin, FrameReader] = {
+            FrameOrigin.RTSP: partial(read_rtsp, source, most),
+            FrameOrigin.MJPEG: partial(read_mjpeg, source),
+            FrameOrigin.V4L2: partial(read_v4l2, source, image_size, most),
+            FrameOrigin.FILE: partial(read_file, source, directory, most),
+        }
+        return Camera(readers[origin_of(source)], most)
+
+    return open_camera
 
 
 def largest_socket_message(settings: Settings) -> int:

@@ -13,7 +13,8 @@ from typing import Literal
 
 CONTEXT: ContextVar[tuple[tuple[str, str], ...]] = ContextVar("log_context", default=())
 
-LIBRARIES = ("alembic", "sqlalchemy", "multipart", "python_multipart")
+# httpx would log the addresses that it asks, and a camera's may hold a password.
+LIBRARIES = ("alembic", "httpcore", "httpx", "multipart", "python_multipart", "sqlalchemy")
 
 
 @contextmanager

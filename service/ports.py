@@ -4,7 +4,8 @@ A Protocol stands here only where two implementations exist (a fake of the tests
 one of them: SQLAlchemy already is the port between SQLite and PostgreSQL.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
+from dataclasses import dataclass
 from datetime import datetime
 from typing import Any, Protocol
 from uuid import UUID
@@ -132,3 +133,22 @@ class FrameSource(Protocol):
 
 FrameSourceMaker = Callable[[Intrinsics, Chessboard, str], FrameSource]
 """Makes the source of a run from the SKU's nominal camera, its target and the vehicle's serial."""
+
+
+@dataclass(frozen=True)
+class Grabbed:
+    """A picture as a camera gave it: grey pixels (h, w), or the bytes of an image file that holds them.
+
+    camera: what the device calls itself, if it does. source_s: when it was taken, by the camera's own clock.
+    """
+
+    picture: NDArray[np.uint8] | bytes
+    camera: str | None = None
+    source_s: float | None = None
+
+
+FrameReader = Callable[[], Generator[Grabbed]]
+"""Connects to a camera and yields its pictures as they come, until closed; waits a few seconds at most.
+
+Raises SourceUnreachable, SourceStalled, SourceUnreadable; whoever reads connects again by calling it again.
+"""

@@ -56,6 +56,9 @@ class Settings(BaseSettings):
     max_upload_mb: int = Field(32, ge=1, description="Largest request body, in megabytes of 10^6 bytes")
     max_image_megapixels: int = Field(24, ge=1, description="Largest image, in millions of pixels")
     shutdown_grace_s: float = Field(20.0, ge=0, description="Seconds for requests and jobs to end at a stop")
+    frames_dir: str = Field(
+        "", description="Directory whose folders and videos stations may replay (file:NAME); empty: none"
+    )
     virtual_speed: float = Field(
         1.0, gt=0, le=1000, description="Seconds that pass at a virtual station in one second of ours"
     )

@@ -22,6 +22,7 @@ class Services:
     jobs: JobQueue
     clock: Clock
     max_image_pixels: int
+    has_frames_dir: bool
     checks: Mapping[str, Callable[[], None]]
 
 

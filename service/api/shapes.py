@@ -7,8 +7,9 @@ from typing import Annotated, Generic, TypeVar
 from uuid import UUID
 
 from fastapi import Path
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
+from service.usecases.frame_address import mask_source
 from service.usecases.text import CODE_PATTERN
 
 Item = TypeVar("Item")
@@ -16,6 +17,13 @@ Item = TypeVar("Item")
 Id = Annotated[UUID, Path(description="Id as another answer gave it (UUID version 7).")]
 SkuCode = Annotated[str, Path(pattern=CODE_PATTERN, description="Code of the SKU.", examples=["lens1"])]
 RevisionNumber = Annotated[int, Path(ge=1, le=1_000_000, description="Number of the revision, from 1.")]
+
+
+ShownSource = Annotated[
+    str,
+    AfterValidator(mask_source),
+    Field(description="Where frames come from; name, password and query of an address are shown as `***`."),
+]
 
 
 class Answer(BaseModel):

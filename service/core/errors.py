@@ -339,6 +339,13 @@ class DatabaseBusy(Unavailable):
     title = "The database is busy"
 
 
+class SourceRefused(Unprocessable):
+    """The address of a station's source is not one that the service reads frames from."""
+
+    code = "source-refused"
+    title = "The source cannot be used"
+
+
 class DatabaseUnreachable(Unavailable):
     """The database cannot be opened or does not answer."""
 

@@ -142,8 +142,8 @@ class StationRow(Row):
     code: Mapped[str] = mapped_column(unique=True)
     name: Mapped[str]
     target_id: Mapped[UUID | None] = mapped_column(_refers_to("target.id"), default=None)
-    source: Mapped[FrameOrigin] = mapped_column(
-        word(FrameOrigin, "source"), default=FrameOrigin.BROWSER, server_default=FrameOrigin.BROWSER.value
+    source: Mapped[str] = mapped_column(
+        default=FrameOrigin.BROWSER.value, server_default=FrameOrigin.BROWSER.value
     )
     created_at: Mapped[datetime]
 

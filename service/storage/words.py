@@ -32,7 +32,11 @@ class Role(StrEnum):
 
 
 class FrameOrigin(StrEnum):
-    """Where a station's live frames come from: the kiosk's own camera, or the simulator in the service."""
+    """Where live frames come from: the kiosk's own camera, the simulator, a camera that the service reads."""
 
     BROWSER = "browser"
     VIRTUAL = "virtual"
+    RTSP = "rtsp"
+    MJPEG = "mjpeg"
+    V4L2 = "v4l2"
+    FILE = "file"

@@ -6,6 +6,7 @@ well it meets its pose is reported here and judged by the gates when the run is 
 row, so that no row lacks its image.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from uuid import UUID
@@ -13,7 +14,7 @@ from uuid import UUID
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from service.core.errors import DuplicateImage, NotFound, PoseIndexUnknown, PoseTaken
+from service.core.errors import DuplicateImage, Fact, NotFound, PoseIndexUnknown, PoseTaken
 from service.core.run import check_open
 from service.ports import BlobStore
 from service.storage.database import Database
@@ -33,6 +34,8 @@ from service.usecases.observation import (
 from service.usecases.runs import get_run
 from service.usecases.sku_document import SkuDocument
 
+NO_FACTS: Mapping[str, Fact] = {}
+
 
 @dataclass(frozen=True)
 class Accepted:
@@ -51,8 +54,11 @@ def add_capture(
     pose_index: int | None,
     who: str,
     now: datetime,
+    facts: Mapping[str, Fact] = NO_FACTS,
 ) -> Accepted:
     """Accept an image into a run; the same image for the same pose is accepted once and answered again.
+
+    facts: what else the audit trail is to hold about the image, such as its camera.
 
     Raises NotFound, RunAlreadyFinished, RunAborted, PoseIndexUnknown, PoseTaken, DuplicateImage, and what
     `observe` raises.
@@ -72,7 +78,7 @@ def add_capture(
         if known is not None:
             return Accepted(known, is_new=False)
         row = _insert(session, run, picture, observation, sha256=sha256, pose_index=pose_index, now=now)
-        record(session, now, who, "capture.add", f"run:{run_id}", number=row.number, sha256=sha256)
+        record(session, now, who, "capture.add", f"run:{run_id}", **facts, number=row.number, sha256=sha256)
         return Accepted(view_capture_detail(session, row), is_new=True)
 
 

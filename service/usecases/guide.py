@@ -4,11 +4,13 @@ Calls come one at a time, each from any thread. Everything that must outlive the
 takes the run again goes on at the same pose. Not here: sockets, and where frames come from.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from uuid import UUID
 
 from service.core.errors import (
     DegenerateViews,
+    Fact,
     PoseTaken,
     RunAborted,
     RunAlreadyFinished,
@@ -41,6 +43,7 @@ from service.storage.database import Database
 from service.usecases.calibration_input import load_input
 from service.usecases.captures import add_capture, withdraw_capture
 from service.usecases.finish import finish_run
+from service.usecases.guide_camera import view_camera
 from service.usecases.guide_frames import Eye, Pixels, to_png
 from service.usecases.guide_runs import GuidedRun, Wish, capture_of_pose, load_guided_run, take_run
 from service.usecases.guide_views import (
@@ -115,7 +118,7 @@ class GuidedSession:
     def see(self, frame: LiveFrame) -> list[Told]:
         """Judge a live frame; raises WrongImageSize."""
         told = self._apply(Frame(self._eye.observe(frame)))
-        return [self._show_state(), *told]
+        return [replace(self._show_state(), camera=view_camera(frame)), *told]
 
     def capture(self) -> list[Told]:
         """Ask for the picture that is on the screen."""
@@ -129,15 +132,18 @@ class GuidedSession:
             return [RefusedView(self._state.current, error)]
         return told
 
-    def keep(self, sequence: int, image: Pixels) -> list[Told]:
-        """Store the full picture that was asked for; one that was not asked for is dropped."""
+    def keep(self, sequence: int, image: Pixels, **facts: Fact) -> list[Told]:
+        """Store the full picture that was asked for; one that was not asked for is dropped.
+
+        facts: about the frame, for the audit trail.
+        """
         wanted = self._wanted
         if wanted is None or wanted.sequence != sequence or self.is_over:
             return []
         self._wanted = None
         try:
             self._eye.check_same(sequence, image)
-            accepted = self._store(wanted.pose_index, image)
+            accepted = self._store(wanted.pose_index, image, facts)
         except (RunAborted, RunAlreadyFinished) as error:
             return self._ended_elsewhere(error)
         except PoseTaken as error:
@@ -158,8 +164,7 @@ class GuidedSession:
             return []
         self._wanted = None
         error = FrameMissing(
-            "The kiosk's camera did not send the full picture in time. Hold the board still; the pose is "
-            "taken again.",
+            "The full picture did not come in time. Hold the board still; the pose is taken again.",
             sequence=sequence,
         )
         return self._refuse(wanted.pose_index, error)
@@ -199,7 +204,7 @@ class GuidedSession:
                 self._withdraw(pose_index)
         return []
 
-    def _store(self, pose_index: int, image: Pixels) -> AcceptedView:
+    def _store(self, pose_index: int, image: Pixels, facts: Mapping[str, Fact]) -> AcceptedView:
         plant = self._plant
         picture = Picture(to_png(image), f"pose-{pose_index + 1:02d}.png", plant.largest_pixels)
         stored = add_capture(
@@ -210,6 +215,7 @@ class GuidedSession:
             pose_index=pose_index,
             who=self._who,
             now=plant.clock.now(),
+            facts=facts,
         ).view
         return AcceptedView(
             pose_index=pose_index,

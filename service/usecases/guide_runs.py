@@ -18,6 +18,7 @@ from service.core.vision.transforms import Pose
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow, StationRow
 from service.storage.words import FrameOrigin, Publication
 from service.usecases.audit import record
+from service.usecases.frame_address import origin_of
 from service.usecases.observation import pose_from_json
 from service.usecases.run_filter import RunFilter
 from service.usecases.runs import Order, get_run, open_run
@@ -62,12 +63,13 @@ class GuidedRun:
 
 @dataclass(frozen=True)
 class StationView:
-    """A station as its kiosk is welcomed."""
+    """A station as its kiosk is welcomed; source: the whole address, for nobody but who reads the camera."""
 
     id: UUID
     code: str
     name: str
-    source: FrameOrigin
+    source: str
+    origin: FrameOrigin
     run_id: UUID | None
     skus: list[str]
 
@@ -84,7 +86,8 @@ def read_station(session: Session, code: str) -> StationView:
         .limit(SKUS_SHOWN)
     )
     skus = list(session.scalars(published))
-    return StationView(row.id, row.code, row.name, row.source, _latest_open(session, row), skus)
+    origin = origin_of(row.source)
+    return StationView(row.id, row.code, row.name, row.source, origin, _latest_open(session, row), skus)
 
 
 def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -> UUID:
@@ -165,8 +168,8 @@ def _open(session: Session, station: StationRow, serial: str, wish: Wish, *, who
 
 
 def _purpose(session: Session, station: StationRow, serial: str, wish: Wish) -> Purpose:
-    # What a simulator shows says nothing about a vehicle and must not count for the line's yield.
-    if station.source is FrameOrigin.VIRTUAL:
+    # What is simulated or replayed says nothing about a vehicle and must not count for the line's yield.
+    if origin_of(station.source) in {FrameOrigin.VIRTUAL, FrameOrigin.FILE}:
         return Purpose.SIMULATED
     if wish.purpose is not None:
         return wish.purpose

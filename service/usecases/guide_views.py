@@ -142,6 +142,16 @@ class SeenView:
 
 
 @dataclass(frozen=True)
+class CameraView:
+    """How a camera that the service reads keeps up."""
+
+    name: str | None
+    fps: float | None
+    source_s: float | None
+    waited_ms: float
+
+
+@dataclass(frozen=True)
 class StateView:
     """What the newest frame shows and what to do next."""
 
@@ -161,6 +171,8 @@ class StateView:
     automatic: bool
     is_capturing: bool
     accuracy: AccuracyView | None
+    camera: CameraView | None = None
+    round_trip_ms: float | None = None
 
 
 Told = (

@@ -1,4 +1,4 @@
-"""Stations: register the calibration places of a line."""
+"""Stations: register the calibration places of a line, and say where their frames come from."""
 
 from datetime import datetime
 from uuid import UUID
@@ -10,6 +10,7 @@ from service.core.errors import NotFound
 from service.storage.models import StationRow, TargetRow
 from service.storage.words import FrameOrigin
 from service.usecases.audit import record
+from service.usecases.frame_address import check_source, mask_source
 from service.usecases.paging import PageRequest, Part, page_of
 
 
@@ -19,17 +20,32 @@ def create_station(
     name: str,
     target_id: UUID | None,
     *,
-    source: FrameOrigin = FrameOrigin.BROWSER,
+    source: str = FrameOrigin.BROWSER.value,
+    files: bool = False,
     who: str,
     now: datetime,
 ) -> StationRow:
-    """Register a station; raises NotFound for an unknown board, AlreadyExists for a code that is taken."""
+    """Register a station; files: whether `file:` sources are on.
+
+    Raises NotFound for an unknown board, SourceRefused, AlreadyExists for a code that is taken.
+    """
+    check_source(source, files=files)
     if target_id is not None and session.get(TargetRow, target_id) is None:
         raise NotFound("There is no target of this id. Register the board first.", target_id=str(target_id))
     row = StationRow(code=code, name=name, target_id=target_id, source=source, created_at=now)
     session.add(row)
     session.flush()
-    record(session, now, who, "station.create", f"station:{code}", name=name, source=source.value)
+    record(session, now, who, "station.create", f"station:{code}", name=name, source=mask_source(source))
+    return row
+
+
+def change_source(
+    session: Session, code: str, source: str, *, files: bool, who: str, now: datetime
+) -> StationRow:
+    """Give a station another source, from its next kiosk on; raises NotFound, SourceRefused."""
+    row = get_station(session, code)
+    row.source = check_source(source, files=files)
+    record(session, now, who, "station.source", f"station:{code}", source=mask_source(source))
     return row
 
 

@@ -71,6 +71,7 @@ class StationStanding:
 
     code: str
     name: str
+    source: str  # with what is secret in it
     open_run: RunView | None
     last_run: RunView | None
 
@@ -91,7 +92,7 @@ def list_station_standings(session: Session, page: PageRequest) -> Part[StationS
     opened = _newest(session, [row.id for row in part.items], RunState.OPEN)
     finished = _newest(session, [row.id for row in part.items], RunState.FINISHED)
     standings = [
-        StationStanding(row.code, row.name, opened.get(row.code), finished.get(row.code))
+        StationStanding(row.code, row.name, row.source, opened.get(row.code), finished.get(row.code))
         for row in part.items
     ]
     return Part(standings, part.next_cursor)

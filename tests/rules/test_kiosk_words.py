@@ -34,6 +34,7 @@ ELSEWHERE = {
     "pose-undetermined",
     "scene-invalid",
     "sku-file-unreadable",
+    "source-refused",
     "target-spec-invalid",
     "unprocessable",
 }

@@ -9,7 +9,7 @@ from pydantic import Field
 from service.api.auth import Viewer
 from service.api.dependencies import Now, PageOf, ReadDb
 from service.api.rest.runs import RunSummary
-from service.api.shapes import Answer, Page
+from service.api.shapes import Answer, Page, ShownSource
 from service.usecases import statistics
 from service.usecases.text import Code
 
@@ -54,6 +54,7 @@ class StationStanding(Answer):
 
     code: str
     name: str
+    source: ShownSource
     open_run: RunSummary | None
     last_run: RunSummary | None
 

@@ -15,10 +15,11 @@ from anyio import to_thread
 from service.api.ws.link import Link
 from service.api.ws.messages import message_of, state_message
 from service.core.errors import ServiceError, StateForbids
-from service.core.guidance.problems import KioskLeft, StationHeld
+from service.core.guidance.problems import FrameForgotten, KioskLeft, StationHeld
 from service.ports import FrameSource, LiveFrame
 from service.storage.words import FrameOrigin
 from service.usecases.guide import GuidedSession, Plant, open_session, resume_session
+from service.usecases.guide_camera import Camera
 from service.usecases.guide_frames import Pixels, to_jpeg
 from service.usecases.guide_runs import StationView, Wish
 from service.usecases.guide_views import ClosedView, StateView, Told, VerdictView, WantedFrame
@@ -39,7 +40,7 @@ class Desk:
 
     def __init__(self, plant: Plant, code: str) -> None:
         self.session: GuidedSession | None = None
-        self.source: FrameSource | None = None
+        self.source: FrameSource | Camera | None = None
         self.changed = asyncio.Event()
         self.seen_s = monotonic()
         self.wanted: tuple[int, float] | None = None
@@ -60,8 +61,22 @@ class Desk:
 
     @property
     def awaits_frames(self) -> bool:
-        """Whether frames should be coming; a source in the service takes a while to be made."""
+        """Whether frames should be coming; a source in the service takes a while to be made or connected."""
+        if isinstance(self.source, Camera) and self.source.is_connecting:
+            return False
         return self.is_guiding and (self._origin is FrameOrigin.BROWSER or self.source is not None)
+
+    @property
+    def trouble(self) -> ServiceError | None:
+        """Why no frames come, where the service reads the camera and knows it."""
+        return self.source.trouble if isinstance(self.source, Camera) else None
+
+    async def guided(self) -> GuidedSession:
+        """Return the session that waits for frames, once there is one."""
+        while (session := self.session) is None or session.is_over:
+            self.changed.clear()
+            await self.changed.wait()
+        return session
 
     @asynccontextmanager
     async def seat(self, link: Link, origin: FrameOrigin) -> AsyncIterator[None]:
@@ -157,7 +172,7 @@ class Desk:
         self.wanted = None
         await self._answer(lambda session: session.miss(sequence))
 
-    def take_source(self, session: GuidedSession, source: FrameSource) -> None:
+    def take_source(self, session: GuidedSession, source: FrameSource | Camera) -> None:
         """Let a session's full pictures come from a source in the service."""
         if self.session is session:
             self.source, self.seen_s = source, monotonic()
@@ -258,7 +273,7 @@ class Desk:
 
     def _is_shown_to(self, link: Link) -> bool:
         """Whether a client needs the picture: a kiosk with its own camera has it."""
-        return link.role == "monitor" or self._origin is FrameOrigin.VIRTUAL
+        return link.role == "monitor" or self._origin is not FrameOrigin.BROWSER
 
 
 class Desks:
@@ -278,5 +293,10 @@ def _look(session: GuidedSession, next_frame: Callable[[], LiveFrame], wants_pic
     return Looked(session.see(frame), to_jpeg(frame.image) if wants_picture else None)
 
 
-def _capture(session: GuidedSession, source: FrameSource, sequence: int) -> list[Told]:
-    return session.keep(sequence, source.capture(sequence))
+def _capture(session: GuidedSession, source: FrameSource | Camera, sequence: int) -> list[Told]:
+    try:
+        image = source.capture(sequence)
+    except FrameForgotten:
+        return session.miss(sequence)
+    facts = source.facts_of(sequence) if isinstance(source, Camera) else {}
+    return session.keep(sequence, image, **facts)

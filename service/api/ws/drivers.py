@@ -4,6 +4,7 @@ Each runs as long as the station's kiosk is connected. Not here: what a frame le
 """
 
 import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from time import monotonic
@@ -12,12 +13,14 @@ from anyio import to_thread
 
 from service.api.ws.desk import Desk
 from service.core.guidance.problems import SourceStalled
-from service.ports import FrameSourceMaker
+from service.ports import FrameSourceMaker, LiveFrame
+from service.usecases.guide_camera import Camera
 from service.usecases.guide_frames import RawFrame
 
-STALLED_S = 2.0
+STALLED_S = 1.5  # with the time between two looks, it is told within 2 s
 FULL_FRAME_S = 3.0
 WATCH_S = 0.25
+FRAME_WAIT_S = 0.25
 
 
 @dataclass(frozen=True)
@@ -73,12 +76,7 @@ class Intake:
 async def drive_virtual(desk: Desk, make: FrameSourceMaker, pace: Pace) -> None:
     """Pull frames from the simulator for every run that is guided, until cancelled."""
     while True:
-        while not desk.is_guiding:
-            desk.changed.clear()
-            await desk.changed.wait()
-        session = desk.session
-        if session is None:
-            continue
+        session = await desk.guided()
         revision = session.run.revision
         source = await to_thread.run_sync(make, revision.intrinsics, revision.target, session.run.serial)
         desk.take_source(session, source)
@@ -86,6 +84,30 @@ async def drive_virtual(desk: Desk, make: FrameSourceMaker, pace: Pace) -> None:
             due = monotonic() + pace.frame_s / pace.speed
             await desk.look(partial(source.next_frame, session.hints, pace.frame_s))
             await asyncio.sleep(max(0.0, due - monotonic()))
+
+
+async def drive_camera(desk: Desk, open_camera: Callable[[tuple[int, int]], Camera]) -> None:
+    """Hand the newest frame of a camera on, as fast as they can be judged, until cancelled.
+
+    The camera stays open between runs, so that the next one begins with a picture.
+    """
+    camera, size = None, None
+    try:
+        while True:
+            session = await desk.guided()
+            wanted = session.run.revision.intrinsics.image_size
+            if camera is not None and size != wanted:
+                camera.close()
+            if camera is None or size != wanted:
+                camera, size = open_camera(wanted), wanted
+            desk.take_source(session, camera)
+            while desk.session is session and not session.is_over:
+                frame = await to_thread.run_sync(camera.next_frame, FRAME_WAIT_S)
+                if frame is not None:
+                    await desk.look(partial(_itself, frame))
+    finally:
+        if camera is not None:
+            camera.close()
 
 
 async def drive_browser(desk: Desk, intake: Intake) -> None:
@@ -103,22 +125,26 @@ async def drive_browser(desk: Desk, intake: Intake) -> None:
 
 async def watch(desk: Desk) -> None:
     """Say when no frames come, and give up on a full frame that does not, until cancelled."""
-    told_of: float | None = None
+    told_of: tuple[float, str] | None = None
     while True:
         await asyncio.sleep(WATCH_S)
         now, seen_s = monotonic(), desk.seen_s
         if desk.wanted is not None and now - desk.wanted[1] > FULL_FRAME_S:
             await desk.miss(desk.wanted[0])
-        if desk.awaits_frames and now - seen_s > STALLED_S and told_of != seen_s:
-            told_of = seen_s
-            desk.complain(
-                SourceStalled(
-                    "No picture has come from the camera for 2 s. Check its cable and power; guidance goes "
-                    "on by itself with the next picture.",
-                    seconds=STALLED_S,
-                )
-            )
+        if desk.awaits_frames and now - seen_s > STALLED_S:
+            error = desk.trouble or _stalled()
+            if told_of != (seen_s, error.code):
+                told_of = seen_s, error.code
+                desk.complain(error)
 
 
-def _itself(frame: RawFrame) -> RawFrame:
+def _stalled() -> SourceStalled:
+    return SourceStalled(
+        f"No picture has come from the camera for {STALLED_S:g} s. Check its cable and power; guidance goes "
+        "on by itself with the next picture.",
+        seconds=STALLED_S,
+    )
+
+
+def _itself(frame: LiveFrame) -> LiveFrame:
     return frame

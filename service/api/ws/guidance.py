@@ -8,6 +8,7 @@ import asyncio
 import logging
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from anyio import create_task_group, to_thread
@@ -16,7 +17,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from service.api.auth import Guides, SocketRoles, check_role
 from service.api.ws import protocol
 from service.api.ws.desk import Desk, Desks
-from service.api.ws.drivers import Intake, Pace, drive_browser, drive_virtual, watch
+from service.api.ws.drivers import Intake, Pace, drive_browser, drive_camera, drive_virtual, watch
 from service.api.ws.incoming import FarewellError, read_frame, read_message, receive, to_text
 from service.api.ws.link import Link, TooSlowError
 from service.api.ws.messages import message_of
@@ -26,6 +27,7 @@ from service.ports import FrameSourceMaker
 from service.storage.words import FrameOrigin
 from service.usecases.access import identify
 from service.usecases.guide import Plant
+from service.usecases.guide_camera import CameraOpener
 from service.usecases.guide_runs import StationView, Wish, read_station
 
 HELLO_S = 5.0
@@ -43,6 +45,7 @@ class Guidance:
     plant: Plant
     desks: Desks
     make_source: FrameSourceMaker
+    open_camera: CameraOpener
     pace: Pace
 
     @property
@@ -76,7 +79,7 @@ async def guide(socket: WebSocket, code: str, roles: Guides) -> None:
     with logged_with(station=code):
         try:
             visit = await _welcome(socket, guidance, code, roles)
-            async with visit.desk.seat(visit.link, visit.station.source):
+            async with visit.desk.seat(visit.link, visit.station.origin):
                 await _serve(visit)
         except FarewellError as farewell:
             await _say_farewell(socket, farewell)
@@ -127,7 +130,7 @@ async def _serve(visit: Visit) -> None:
             protocol=protocol.PROTOCOL,
             station=station.code,
             name=station.name,
-            source=station.source,
+            source=station.origin,
             role=visit.link.role,
             run_id=visit.desk.session.run.id if visit.desk.session else station.run_id,
             skus=station.skus,
@@ -136,15 +139,18 @@ async def _serve(visit: Visit) -> None:
     await _tell_problems(visit, visit.desk.begin(visit.link, station))
     work = [visit.link.send_all(), _read(visit)]
     if visit.is_kiosk:
-        virtual = station.source is FrameOrigin.VIRTUAL
-        guidance = visit.guidance
-        work.append(watch(visit.desk))
-        work.append(
-            drive_virtual(visit.desk, guidance.make_source, guidance.pace)
-            if virtual
-            else drive_browser(visit.desk, visit.intake)
-        )
+        work += [watch(visit.desk), _drive(visit)]
     await _until_one_ends(work)
+
+
+def _drive(visit: Visit) -> Coroutine[Any, Any, None]:
+    """Return what brings the frames of the station's source."""
+    guidance, station = visit.guidance, visit.station
+    if station.origin is FrameOrigin.VIRTUAL:
+        return drive_virtual(visit.desk, guidance.make_source, guidance.pace)
+    if station.origin is FrameOrigin.BROWSER:
+        return drive_browser(visit.desk, visit.intake)
+    return drive_camera(visit.desk, partial(guidance.open_camera, station.source))
 
 
 async def _until_one_ends(work: list[Coroutine[Any, Any, None]]) -> None:
@@ -169,7 +175,7 @@ async def _until_one_ends(work: list[Coroutine[Any, Any, None]]) -> None:
 async def _read(visit: Visit) -> None:
     while True:
         message = await receive(visit.socket, visit.guidance.most_bytes)
-        takes_frames = visit.is_kiosk and visit.station.source is FrameOrigin.BROWSER
+        takes_frames = visit.is_kiosk and visit.station.origin is FrameOrigin.BROWSER
         if isinstance(message, bytes) and takes_frames:
             visit.intake.put(read_frame(message))
         else:

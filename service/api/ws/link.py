@@ -7,6 +7,7 @@ acknowledged. Whoever reads too slowly is let go, so that nobody else waits. Not
 import asyncio
 import json
 from collections import deque
+from time import monotonic
 from typing import Any, Literal
 
 from starlette.websockets import WebSocket
@@ -33,14 +34,15 @@ class Link:
         self._socket = socket
         self._waiting: deque[Message] = deque()
         self._newest: bytes | None = None
-        self._credit = IN_FLIGHT
+        self._under_way: deque[float] = deque()  # when each picture was sent
+        self._round_trip_ms: float | None = None
         self._something = asyncio.Event()
         self._is_too_slow = False
 
     @property
     def takes_picture(self) -> bool:
         """Whether a picture that is ready now would be sent now."""
-        return self._credit > 0
+        return len(self._under_way) < IN_FLIGHT
 
     def tell(self, message: Told) -> None:
         """Send a message after those that wait; a picture from before it is dropped."""
@@ -52,12 +54,13 @@ class Link:
 
     def show(self, state: State, jpeg: bytes) -> None:
         """Send what a frame shows, with its picture; one that still waits is replaced."""
-        self._newest = pack(state, jpeg)
+        self._newest = pack(state.model_copy(update={"round_trip_ms": self._round_trip_ms}), jpeg)
         self._something.set()
 
     def acknowledge(self) -> None:
         """A picture was drawn."""
-        self._credit = min(IN_FLIGHT, self._credit + 1)
+        if self._under_way:
+            self._round_trip_ms = 1000.0 * (monotonic() - self._under_way.popleft())
         self._something.set()
 
     async def send_all(self) -> None:
@@ -78,10 +81,10 @@ class Link:
         if self._waiting:
             return self._waiting.popleft()
         message = self._newest
-        if message is None or self._credit == 0:
+        if message is None or not self.takes_picture:
             return None
         self._newest = None
-        self._credit -= 1
+        self._under_way.append(monotonic())
         return message
 
     async def _send(self, message: Message) -> None:

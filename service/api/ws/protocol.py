@@ -324,6 +324,15 @@ class Difference(Told):
     is_upside_down: bool
 
 
+class CameraTold(Told):
+    """How the camera that the service reads keeps up, for engineers."""
+
+    name: str | None = Field(description="What the device calls itself, with its serial if it says so.")
+    fps: float | None = Field(description="Frames that it sends in a second; null at first.")
+    source_s: float | None = Field(description="When the frame was taken, by the camera's own clock.")
+    waited_ms: float = Field(description="From the frame's arrival at the service to this message.")
+
+
 class State(Told):
     """What the newest judged frame shows, and what to do next; with the picture where the server has it."""
 
@@ -344,6 +353,11 @@ class State(Told):
     automatic: bool
     is_capturing: bool = Field(description="A frame was judged fit and is being stored.")
     accuracy: Accuracy | None
+    camera: CameraTold | None = Field(default=None, description="Null where the service reads no camera.")
+    round_trip_ms: float | None = Field(
+        default=None,
+        description="Of the newest picture that this client acknowledged, from sending it; null without one.",
+    )
 
 
 ServerMessage = Annotated[

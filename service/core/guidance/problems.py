@@ -38,6 +38,20 @@ class SourceStalled(Unavailable):
     title = "No picture comes from the camera"
 
 
+class SourceUnreachable(Unavailable):
+    """A station's camera, stream or file cannot be opened, or went away."""
+
+    code = "source-unreachable"
+    title = "The camera cannot be reached"
+
+
+class SourceUnreadable(Unprocessable):
+    """A station's camera is there, but sends what cannot be read as pictures."""
+
+    code = "source-unreadable"
+    title = "The camera sends no pictures that can be read"
+
+
 class StationHeld(Conflict):
     """Another kiosk works at the station."""
 

@@ -13,16 +13,26 @@ import type {
   RevisionLimits,
   RunDetail,
   SkuDetail,
+  Station,
   Vehicle,
   Yield,
 } from "../generated/api";
 
-async function request(path: string, signal?: AbortSignal): Promise<Response> {
+interface Change {
+  method: "PATCH";
+  body: unknown;
+}
+
+async function request(path: string, signal?: AbortSignal, change?: Change): Promise<Response> {
   let answer: Response;
   const used = key.value;
   try {
     answer = await fetch(path, {
-      headers: { Authorization: `Bearer ${used ?? ""}` },
+      headers: {
+        Authorization: `Bearer ${used ?? ""}`,
+        ...(change && { "Content-Type": "application/json" }),
+      },
+      ...(change && { method: change.method, body: JSON.stringify(change.body) }),
       ...(signal && { signal }),
     });
   } catch (error) {
@@ -69,6 +79,12 @@ export function getVehicle(serial: string, signal?: AbortSignal): Promise<Vehicl
 
 export function getStations(cursor: string | null, signal?: AbortSignal): Promise<PageStationStanding> {
   return getJson(partPath("/statistics/stations", cursor), signal);
+}
+
+export async function setStationSource(code: string, source: string): Promise<Station> {
+  const path = `${ROOT}/stations/${encodeURIComponent(code)}`;
+  const answer = await request(path, undefined, { method: "PATCH", body: { source } });
+  return (await answer.json()) as Station;
 }
 
 export function getSkus(cursor: string | null, signal?: AbortSignal): Promise<PageSku> {

@@ -6,6 +6,7 @@ import { standingOf } from "../shell/verdict_mark";
 import { words } from "../words/language";
 import { addressOf } from "./route";
 import { StandingTag } from "./runs_table";
+import { StationSource } from "./station_source";
 
 /** More poses than this are drawn as one bar: single fields would be too thin to count. */
 const MOST_FIELDS = 40;
@@ -26,6 +27,7 @@ export function StationCard({ station }: { station: StationStanding }): JSX.Elem
       <div class="station-now">
         {open === null ? <p class="muted">{say.station_idle}</p> : <OpenRun run={open} />}
       </div>
+      <StationSource code={code} source={station.source} />
       <div class="station-last">
         <span class="muted">{say.station_last}</span>
         {last === null ? <span class="muted">{say.station_no_verdict}</span> : <LastRun run={last} />}

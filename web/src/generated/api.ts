@@ -108,9 +108,6 @@ export interface FieldError {
   detail: string;
 }
 
-/** Where a station's live frames come from: the kiosk's own camera, or the simulator in the service. */
-export type FrameOrigin = "browser" | "virtual";
-
 /** Work in the background. */
 export interface Job {
   id: string;
@@ -208,14 +205,24 @@ export interface NewRun {
   purpose?: Purpose;
 }
 
+/** Another source for a station. */
+export interface NewSource {
+  /**
+   * Where live frames come from: the kiosk's own camera (`browser`), the simulator (`virtual`), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), `v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.
+   */
+  source: string;
+}
+
 /** A station to register. */
 export interface NewStation {
   code: string;
   name: string;
   /** Board that stands there. */
   target_id?: string | null;
-  /** Where live frames come from: the kiosk's own camera, or the simulator (`virtual`). */
-  source?: FrameOrigin;
+  /**
+   * Where live frames come from: the kiosk's own camera (`browser`), the simulator (`virtual`), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), `v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.
+   */
+  source?: string;
 }
 
 /** A board to register. */
@@ -637,7 +644,8 @@ export interface Station {
   code: string;
   name: string;
   target_id: string | null;
-  source: FrameOrigin;
+  /** Where frames come from; name, password and query of an address are shown as `***`. */
+  source: string;
   created_at: string;
 }
 
@@ -645,6 +653,8 @@ export interface Station {
 export interface StationStanding {
   code: string;
   name: string;
+  /** Where frames come from; name, password and query of an address are shown as `***`. */
+  source: string;
   open_run: RunSummary | null;
   last_run: RunSummary | null;
 }

@@ -36,6 +36,18 @@ export interface BoardSize {
   rows: number;
 }
 
+/** How the camera that the service reads keeps up, for engineers. */
+export interface CameraTold {
+  /** What the device calls itself, with its serial if it says so. */
+  name: string | null;
+  /** Frames that it sends in a second; null at first. */
+  fps: number | null;
+  /** When the frame was taken, by the camera's own clock. */
+  source_s: number | null;
+  /** From the frame's arrival at the service to this message. */
+  waited_ms: number;
+}
+
 /** Take the picture now, whatever the match. */
 export interface Capture {
   type: "capture";
@@ -98,8 +110,8 @@ export interface FrameHeader {
   serial: string;
 }
 
-/** Where a station's live frames come from: the kiosk's own camera, or the simulator in the service. */
-export type FrameOrigin = "browser" | "virtual";
+/** Where live frames come from: the kiosk's own camera, the simulator, a camera that the service reads. */
+export type FrameOrigin = "browser" | "virtual" | "rtsp" | "mjpeg" | "v4l2" | "file";
 
 /** One measurement of the result, with the limit that it met or missed. */
 export interface GateLine {
@@ -267,6 +279,10 @@ export interface State {
   /** A frame was judged fit and is being stored. */
   is_capturing: boolean;
   accuracy: Accuracy | null;
+  /** Null where the service reads no camera. */
+  camera: CameraTold | null;
+  /** Of the newest picture that this client acknowledged, from sending it; null without one. */
+  round_trip_ms: number | null;
 }
 
 /** Withdraw the newest capture; its pose is asked for again. */

@@ -11,6 +11,7 @@ describe("keys during guidance", () => {
     ["Enter", "capture"],
     ["Backspace", "undo"],
     ["Escape", "abort"],
+    ["F2", "figures"],
     ["x", null],
   ])("%j means %s", (key, command) => {
     expect(commandOf(press(key), "guide", false)).toBe(command);

@@ -1,7 +1,7 @@
 // Which key does what. A foot switch is a key: it sends space or Enter.
 import type { Screen } from "./kiosk_state";
 
-export type Command = "capture" | "undo" | "abort";
+export type Command = "capture" | "undo" | "abort" | "figures";
 
 export interface Press {
   key: string;
@@ -12,15 +12,19 @@ export interface Press {
   isOnControl: boolean;
 }
 
+/** Keys that no button needs for itself. */
+const ANYWHERE: ReadonlySet<Command> = new Set(["abort", "figures"]);
+
 const COMMANDS: Readonly<Record<string, Command>> = {
   " ": "capture",
   Enter: "capture",
   Backspace: "undo",
   Escape: "abort",
+  F2: "figures",
 };
 
 export function commandOf(press: Press, screen: Screen, isAsking: boolean): Command | null {
   if (screen !== "guide" || isAsking || press.isRepeated || press.isModified) return null;
   const command = COMMANDS[press.key] ?? null;
-  return press.isOnControl && command !== "abort" ? null : command;
+  return press.isOnControl && command !== null && !ANYWHERE.has(command) ? null : command;
 }

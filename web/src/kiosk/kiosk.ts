@@ -5,6 +5,7 @@ import { Camera } from "./camera";
 import { unpack } from "./framed";
 import { FIRST_STATE, isLive, nextState, screenOf, type KioskEvent } from "./kiosk_state";
 import { isMirrored, rememberMirrored } from "./mirror";
+import { Pace } from "./pace";
 import { MOST_UNDERWAY, NOTHING_SHOWN, Underway, type Picture, type Shown } from "./picture_feed";
 import { GuidanceSocket, socketAddress } from "./socket";
 import { isSoundOn, rememberSound, Sounds, type SoundName } from "./sound";
@@ -26,6 +27,9 @@ export class Kiosk {
   readonly mirrored;
   readonly sound = signal(isSoundOn());
   readonly sku = signal<string | null>(null);
+  /** Whether an engineer wants to see how fast pictures come. */
+  readonly figures = signal(false);
+  readonly pace = new Pace();
 
   private readonly socket: GuidanceSocket;
   private readonly sounds = new Sounds();
@@ -33,6 +37,7 @@ export class Kiosk {
   private readonly camera = new Camera({
     frame: ({ sequence, message, picture }) => {
       this.underway.add(sequence, picture);
+      this.pace.send(sequence, performance.now());
       this.socket.sendPicture(message);
     },
     full: (message) => this.socket.sendPicture(message),
@@ -192,6 +197,7 @@ export class Kiosk {
 
   private judge(picture: Picture | null, live: State): void {
     this.judgedAt = performance.now();
+    this.pace.judge(live.sequence, this.judgedAt);
     this.happen({ kind: "told", message: { ...live, type: "state" } });
     const isOurs = this.state.value.live?.sequence === live.sequence;
     if (isOurs) this.show(picture, live);
@@ -208,6 +214,7 @@ export class Kiosk {
   private lose(code: number, isFinal: boolean): void {
     this.happen({ kind: "lost", code, isFinal });
     this.underway.forget();
+    this.pace.forget();
     this.camera.send(null, 0);
     this.decoding = Promise.resolve();
   }

@@ -3,6 +3,7 @@ import "../look/tokens.css";
 import "../look/page.css";
 import "../look/notices.css";
 import "../look/kiosk.css";
+import "../look/kiosk_figures.css";
 import "../look/kiosk_guide.css";
 import "../look/kiosk_pictograms.css";
 import "../look/kiosk_verdict.css";

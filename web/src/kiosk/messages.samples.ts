@@ -76,6 +76,8 @@ export function live(more: Partial<State>): State {
     automatic: true,
     is_capturing: false,
     accuracy: null,
+    camera: null,
+    round_trip_ms: null,
     ...more,
   };
 }

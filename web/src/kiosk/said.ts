@@ -29,6 +29,11 @@ export function problemText({ code, title, detail, facts }: Told, say: Words): S
   return { title: known, detail: textOf(`told_${key}_do`, say) ?? detail, isTranslated: true };
 }
 
+/** Where the pictures come from; a kind that a newer service knows stays as it is called. */
+export function sourceText(source: string, say: Words): string {
+  return textOf(`source_${source}`, say) ?? source;
+}
+
 /** What to do when a gate of this family was not passed. */
 export function remedyOf(gate: string, say: Words): string | null {
   return textOf(`remedy_${gate}`, say);

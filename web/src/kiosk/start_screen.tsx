@@ -5,7 +5,7 @@ import { words } from "../words/language";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
 import type { Told } from "./kiosk_state";
-import { problemText } from "./said";
+import { problemText, sourceText } from "./said";
 import { Switches } from "./switches";
 
 export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
@@ -17,6 +17,7 @@ export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
       <section class="start-card">
         <p class="start-station">
           {say.kiosk_title} <b>{welcome?.name ?? kiosk.station}</b>
+          {welcome !== null && <span> · {sourceText(welcome.source, say)}</span>}
         </p>
         <h1>{say.start_title}</h1>
         {skus.length === 0 ? (

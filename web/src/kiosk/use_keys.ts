@@ -46,5 +46,6 @@ function command(kiosk: Kiosk, event: KeyboardEvent): void {
   event.preventDefault();
   if (asked === "capture") kiosk.capture();
   else if (asked === "undo") kiosk.undo();
+  else if (asked === "figures") kiosk.figures.value = !kiosk.figures.value;
   else kiosk.question.value = { kind: "abort" };
 }

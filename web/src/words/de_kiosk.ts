@@ -60,6 +60,16 @@ export const deKiosk: KioskWords = {
   guide_accuracy_none: "nach einigen Posen",
   guide_manual: "Aufnahme drücken, sobald das Target im gestrichelten Umriss liegt",
 
+  figures_title: "Zahlen",
+  figures_source: "Quelle",
+  figures_camera: "Kamera",
+  figures_sent: "Kamera sendet",
+  figures_judged: "Beurteilt",
+  figures_waited: "Bild bis Zustand",
+  figures_trip: "Hin und zurück",
+  figures_problem: "Problem",
+  figures_per_second: (value) => `${value} / s`,
+
   act_capture: "Aufnahme",
   act_undo: "Zurück",
   act_abort: "Abbruch",
@@ -144,6 +154,11 @@ export const deKiosk: KioskWords = {
   told_source_stalled: "Von der Kamera kommt kein Bild",
   told_source_stalled_do:
     "Kabel und Strom prüfen. Jede angenommene Aufnahme ist gespeichert; mit dem nächsten Bild geht es weiter.",
+  told_source_unreachable: "Die Kamera ist nicht zu erreichen",
+  told_source_unreachable_do:
+    "Kabel und Strom prüfen, sonst den Ingenieur rufen. Jede angenommene Aufnahme ist gespeichert; mit dem nächsten Bild geht es weiter.",
+  told_source_unreadable: "Die Bilder der Kamera sind nicht zu lesen",
+  told_source_unreadable_do: "Der Ingenieur prüft die Quelle der Station und das Format der Kamera.",
   told_frame_missing: "Das Bild ist nicht angekommen",
   told_frame_missing_do: "Das Target noch einmal an seinem Platz halten.",
   told_frame_moved: "Das Target hat sich bewegt",

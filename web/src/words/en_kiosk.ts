@@ -57,6 +57,16 @@ export const enKiosk = {
   guide_accuracy_none: "after a few poses",
   guide_manual: "Press capture when the board lies in the dashed outline",
 
+  figures_title: "Figures",
+  figures_source: "Source",
+  figures_camera: "Camera",
+  figures_sent: "Camera sends",
+  figures_judged: "Judged",
+  figures_waited: "Frame to state",
+  figures_trip: "Round trip",
+  figures_problem: "Problem",
+  figures_per_second: (value: string) => `${value} / s`,
+
   act_capture: "Capture",
   act_undo: "Undo",
   act_abort: "Abort",
@@ -137,6 +147,11 @@ export const enKiosk = {
   told_source_stalled: "No picture comes from the camera",
   told_source_stalled_do:
     "Check its cable and power. Every accepted capture is stored; the run goes on with the next picture.",
+  told_source_unreachable: "The camera cannot be reached",
+  told_source_unreachable_do:
+    "Check its cable and power, then call the engineer. Every accepted capture is stored; the run goes on with the next picture.",
+  told_source_unreadable: "The camera's pictures cannot be read",
+  told_source_unreadable_do: "Let the engineer check the station's source and the camera's format.",
   told_frame_missing: "The picture did not arrive",
   told_frame_missing_do: "Hold the board in its place once more.",
   told_frame_moved: "The board moved",
