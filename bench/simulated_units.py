@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from service.core.planning.pose_space import Poses, PoseSpace, sample_poses
-from service.core.vision.camera import LENSES, Intrinsics, project, undistort
+from service.core.vision.camera import Intrinsics, project, reach_share, unproject
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import whole_image
@@ -92,20 +92,18 @@ def draw_views(true: Intrinsics, pool: Poses, count: int, rng: np.random.Generat
 def _is_shown(true: Intrinsics, poses: Poses, pixels: Array) -> Array:
     """Whether all corners of each pose are inside the image and before the fold of the lens."""
     points = BOARD.object_points @ np.swapaxes(poses.rotations, -1, -2) + poses.translations[:, None]
-    radius = np.linalg.norm(points[..., :2] / points[..., 2:], axis=-1).max(axis=1)
-    limit = FOLD_SHARE * LENSES[true.lens].monotone_radius(true.dist_coeffs)
+    share = reach_share(true, points).max(axis=1)
     last = np.array(true.image_size) - 1.0
     inside = np.all((pixels > MARGIN_PX) & (pixels < last - MARGIN_PX), axis=(1, 2))
-    return np.asarray(inside & (radius < limit))
+    return np.asarray(inside & (share < FOLD_SHARE))
 
 
 def _draw_camera(design: Design, rng: np.random.Generator) -> Intrinsics:
     """Return a unit whose lens reaches the image's corners before it folds."""
     while True:
         true = draw_camera(design.intrinsics, design.tolerance, rng)
-        reached = undistort(true, whole_image(true.image_size).grid(2, 2))
-        farthest = float(np.linalg.norm(reached, axis=1).max())
-        if farthest < FOLD_SHARE * LENSES[true.lens].monotone_radius(true.dist_coeffs):
+        reached = unproject(true, whole_image(true.image_size).grid(2, 2))
+        if float(reach_share(true, reached).max()) < FOLD_SHARE:
             return true
 
 

@@ -25,7 +25,7 @@ class Tolerance:
     """How far a SKU's cameras differ from its nominal: half widths of uniform distributions.
 
     focal_share: common relative difference of fx and fy; aspect_share: their own; centre_px: of cx and cy;
-    coefficients: by name, where absent the camera has the nominal's.
+    coefficients: by name, where absent the camera has the nominal's; names of other lenses are passed over.
     """
 
     focal_share: float = 0.005
@@ -66,7 +66,8 @@ def draw_camera(nominal: Intrinsics, tolerance: Tolerance, rng: np.random.Genera
     for name in ("cx", "cy"):
         parameters[name] += rng.uniform(-1.0, 1.0) * tolerance.centre_px
     for name, half_width in tolerance.coefficients.items():
-        parameters[name] += rng.uniform(-1.0, 1.0) * half_width
+        if name in parameters:
+            parameters[name] += rng.uniform(-1.0, 1.0) * half_width
     return Intrinsics.from_parameters(nominal.lens, parameters, nominal.image_size)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from service.core.vision.camera import Intrinsics, undistort
+from service.core.vision.camera import Intrinsics, unproject
 from service.core.vision.target import Chessboard, parse_target
 from service.core.vision.transforms import Pose, rotation_matrix, rotation_vector
 
@@ -47,6 +47,6 @@ def varied_poses(camera: Intrinsics) -> list[Pose]:
     """Return a dozen poses at which a camera sees the 9x6 board whole."""
     poses = []
     for *degrees, share_x, share_y, depth in VARIED:
-        x, y = undistort(camera, np.array([share_x, share_y]) * camera.image_size) * depth
+        x, y = unproject(camera, np.array([share_x, share_y]) * camera.image_size)[:2] * depth
         poses.append(centred_pose(BOARD, tuple(degrees), (x, y, depth)))
     return poses

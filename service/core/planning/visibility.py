@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from service.core.vision.camera import LENSES, Intrinsics, project, undistort
+from service.core.vision.camera import Intrinsics, project, reach_share, unproject
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
@@ -18,18 +18,17 @@ PLACING_SLACK_PX = 0.5
 # This share of the boards touches the left or right margin, and the upper or lower one: the optimum lies
 # there.
 BORDER_SHARE = 0.25
-# A lens polynomial is trusted up to this share of the radius where it turns back.
+# A lens model is trusted up to this share of the radius where it turns back.
 LENS_SHARE = 0.98
 
 
 @dataclass(frozen=True)
 class Visibility:
-    """What m poses look like; every array (m,), NaN where a corner is behind the camera.
+    """What m poses look like; every array (m,), NaN where the lens has no image of a corner.
 
     clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
     shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
-    to a corner. lens_share: largest ideal radius of a corner over the radius up to which the lens model is
-    monotone.
+    to a corner. lens_share: how far out the outermost corner is, as a share of the reach of the lens.
     """
 
     clearance_px: Array
@@ -43,17 +42,14 @@ def measure_visibility(
 ) -> Visibility:
     """Return what poses (m, 3, 3), (m, 3) look like to a camera."""
     points = target.object_points @ np.swapaxes(rotations, -1, -2) + translations[:, None, :]
-    depth = points[..., 2]
-    ideal = points[..., :2] / np.where(depth > 0, depth, np.nan)[..., None]
     pixels = project(intrinsics, rotations, translations, target.object_points)
     to_border = np.minimum(pixels, np.array(intrinsics.image_size) - 1.0 - pixels)
-    limit = LENSES[intrinsics.lens].monotone_radius(intrinsics.vector[4:])
     cosine = np.einsum("mni,mi->mn", points, rotations[:, :, 2]) / np.linalg.norm(points, axis=-1)
     return Visibility(
         clearance_px=to_border.min(axis=(1, 2)),
         smallest_square_px=_shortest_side(pixels, target),
         incidence_rad=np.arccos(np.clip(cosine, -1.0, 1.0)).max(axis=1),
-        lens_share=np.linalg.norm(ideal, axis=-1).max(axis=1) / limit,
+        lens_share=reach_share(intrinsics, points).max(axis=1),
     )
 
 
@@ -91,7 +87,7 @@ def _translations(
     intrinsics: Intrinsics, target: Chessboard, rotations: Array, distances: Array, centre_px: Array
 ) -> Array:
     """Return translations (m, 3) of targets whose centres lie on the rays of pixels (m, 2)."""
-    rays = np.concatenate([undistort(intrinsics, centre_px), np.ones((len(centre_px), 1))], axis=1)
+    rays = unproject(intrinsics, centre_px)
     centres = rays * (distances / np.linalg.norm(rays, axis=1))[:, None]
     translations: Array = centres - rotations @ target.centre
     return translations
