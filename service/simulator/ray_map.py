@@ -39,7 +39,8 @@ def trace_rays(intrinsics: Intrinsics) -> RayMap:
     """
     columns, rows = (np.arange(size, dtype=np.float64) for size in intrinsics.image_size)
     nodes_x, nodes_y = _nodes(columns), _nodes(rows)
-    nodes = np.nan_to_num(unproject(intrinsics, _grid(nodes_x, nodes_y)))
+    found = unproject(intrinsics, _grid(nodes_x, nodes_y))
+    nodes = np.where(np.isfinite(found), found, np.array([0.0, 0.0, 1.0]))
     splines = [RectBivariateSpline(nodes_y, nodes_x, nodes[..., axis], kx=3, ky=3) for axis in range(3)]
     directions = np.empty((3, len(rows), len(columns)))
     spread = np.empty((len(rows), len(columns)))

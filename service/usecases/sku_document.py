@@ -5,7 +5,7 @@ Here: its fields, their checks and the way into the core's values. Not here: rev
 """
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import (
     AfterValidator,
@@ -20,7 +20,7 @@ from pydantic import (
 from service.core.errors import ServiceError
 from service.core.planning.pose_space import PoseSpace
 from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
-from service.core.vision.camera import Intrinsics, parameter_names
+from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.target import Chessboard, parse_target
 from service.core.vision.uncertainty import Region
 from service.usecases.text import Code, Label
@@ -46,6 +46,14 @@ def bounds_field() -> Any:
     return Field(default=None, strict=False)
 
 
+def check_lens(name: str) -> str:
+    """Return the name of a lens model, or raise ValueError unless the camera knows it."""
+    if name not in LENSES:
+        raise ValueError(f"is not a lens model; choose one of: {', '.join(LENSES)}")
+    return name
+
+
+LensName = Annotated[str, AfterValidator(check_lens), Field(json_schema_extra={"enum": list(LENSES)})]
 DegreeRange = Annotated[tuple[Degrees, Degrees], AfterValidator(check_ordered)]
 MetreRange = Annotated[tuple[Metres, Metres], AfterValidator(check_ordered)]
 
@@ -132,7 +140,7 @@ class SkuDocument(Document):
 
     code: Code = Field(description="Short name in addresses: lower-case letters, digits, '.', '_' and '-'.")
     name: Label
-    lens: Literal["pinhole5"] = Field(description="Lens model.")
+    lens: LensName = Field(description="Lens model.")
     image_size: tuple[Pixels, Pixels] = Field(strict=False, description="Width and height, px.")
     nominal: dict[str, Finite] = Field(
         description="Intrinsics of the data sheet: fx fy cx cy, and coefficients."

@@ -4,7 +4,7 @@ import numpy as np
 
 from bench.simulated_units import HFOV80, HFOV120, SIGMA_PX, draw_units
 from service.core.vision.calibration import calibrate_intrinsics
-from service.core.vision.camera import undistort
+from service.core.vision.camera import unproject
 from service.core.vision.uncertainty import whole_image
 
 
@@ -16,7 +16,7 @@ def test_a_unit_does_not_depend_on_how_many_are_drawn() -> None:
 
 def test_every_unit_reaches_its_image_corners_and_has_its_views() -> None:
     for unit in draw_units(HFOV120, 5, (12, 15), seed=4):
-        assert np.all(np.isfinite(undistort(unit.true, whole_image(unit.true.image_size).grid(2, 2))))
+        assert np.all(np.isfinite(unproject(unit.true, whole_image(unit.true.image_size).grid(2, 2))))
         assert 12 <= len(unit.views) <= 15
 
 

@@ -16,6 +16,25 @@ LENS_2 = Intrinsics.from_parameters(
     {"fx": 972.5, "fy": 974.4, "cx": 954.9, "cy": 644.4, "k1": -0.3454, "k2": 0.1398},
     (1920, 1208),
 )
+# 120 degrees across; its image corners look 72 degrees aside.
+FISHEYE = Intrinsics.from_parameters(
+    "kannala_brandt4",
+    {
+        "fx": 917.3,
+        "fy": 916.4,
+        "cx": 955.0,
+        "cy": 610.0,
+        "k1": -0.021,
+        "k2": 0.0072,
+        "k3": -0.0041,
+        "k4": 8e-4,
+    },
+    (1920, 1208),
+)
+# Its image corners look behind the camera.
+ALL_ROUND = Intrinsics.from_parameters(
+    "kannala_brandt4", {"fx": 80.0, "fy": 80.0, "cx": 128.0, "cy": 80.0, "k1": 0.01}, (256, 160)
+)
 BOARD = parse_target("chessboard:9x6:25mm")
 
 # Pitch, yaw, roll, degrees; where the target's centre lies, in shares of the picture's size; its depth, m.
@@ -47,6 +66,6 @@ def varied_poses(camera: Intrinsics) -> list[Pose]:
     """Return a dozen poses at which a camera sees the 9x6 board whole."""
     poses = []
     for *degrees, share_x, share_y, depth in VARIED:
-        x, y = unproject(camera, np.array([share_x, share_y]) * camera.image_size)[:2] * depth
-        poses.append(centred_pose(BOARD, tuple(degrees), (x, y, depth)))
+        ray = unproject(camera, np.array([share_x, share_y]) * camera.image_size)
+        poses.append(centred_pose(BOARD, tuple(degrees), tuple(ray / ray[2] * depth)))
     return poses

@@ -121,7 +121,7 @@ def test_pixels_that_the_lens_does_not_reach_show_the_background() -> None:
     )
     scene = clean_scene(folding, BOARD)
     near, background = _frame(scene, centred_pose(BOARD, (0, 0, 0), (0.0, 0.0, 0.05))), _frame(scene, NOWHERE)
-    beyond = np.isnan(prepare(halve_scene(scene)).rays.ideal[0])
+    beyond = np.isnan(prepare(halve_scene(scene)).rays.directions[0])
     assert np.mean(beyond) > 0.2
     np.testing.assert_array_equal(near[beyond], background[beyond])
     assert np.mean(near[~beyond] != background[~beyond]) > 0.9

@@ -4,7 +4,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from service.core.vision.camera import Intrinsics, undistort
+from service.core.vision.camera import Intrinsics, unproject
 from service.core.vision.detection import detect_target
 from service.core.vision.transforms import Array, Pose
 from service.simulator.renderer import PreparedScene, prepare, render
@@ -34,8 +34,7 @@ def _count_light(scene: Scene, pose: Pose, left: int, top: int, size: int) -> Ar
     """Return the light of a crop by brute force: 4096 rays per pixel, spread by the R2 sequence."""
     lattice = np.outer(np.arange(4096), [0.7548776662466927, 0.5698402909980532]) % 1.0 - 0.5
     rows, columns = np.mgrid[top : top + size, left : left + size]
-    ideal = undistort(scene.intrinsics, np.stack([columns, rows], axis=-1)[:, :, None] + lattice)
-    rays = np.concatenate([ideal, np.ones((*ideal.shape[:-1], 1))], axis=-1)
+    rays = unproject(scene.intrinsics, np.stack([columns, rows], axis=-1)[:, :, None] + lattice)
     R = pose.rotation
     depth = (R[:, 2] @ pose.tvec) / (rays @ R[:, 2])
     u, v = np.moveaxis((rays * depth[..., None] - pose.tvec) @ R[:, :2] / BOARD.square_m, -1, 0)
@@ -123,7 +122,7 @@ def test_pixels_that_the_lens_does_not_reach_show_the_background() -> None:
     )
     prepared = prepare(clean_scene(folding, BOARD))
     light = prepared.light(centred_pose(BOARD, (0, 0, 0), (0.0, 0.0, 0.05)))
-    beyond = np.isnan(prepared.rays.ideal[0])
+    beyond = np.isnan(prepared.rays.directions[0])
     assert np.all(np.isfinite(light))
     assert np.mean(beyond) > 0.2
     np.testing.assert_array_equal(light[beyond], prepared.background[beyond])

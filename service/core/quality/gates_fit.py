@@ -11,7 +11,7 @@ up.
 import numpy as np
 
 from service.core.quality.evidence import Evidence
-from service.core.quality.gates import Measurement, check_limit, report_value
+from service.core.quality.gates import OTHER_LENS, Measurement, check_limit, report_value
 from service.core.quality.residual_causes import Causes, explain_residuals
 from service.core.vision.residuals import outlier_share, view_rms
 
@@ -62,7 +62,7 @@ def _remedy(evidence: Evidence, causes: Causes) -> str:
     if causes.lens_share > CLEAR_SHARE:
         return (
             f"The residuals repeat with the distance from the image centre, so the lens model {lens} does "
-            "not describe this lens (a fisheye or a very wide lens?). Choose another lens model."
+            f"not describe this lens (a fisheye or a very wide lens?). {OTHER_LENS}"
         )
     return (
         "Check that all images are of one camera and unscaled, that the board is the declared one, rigid and "

@@ -9,14 +9,15 @@ import math
 import numpy as np
 
 from service.core.quality.evidence import Evidence
-from service.core.quality.gates import Measurement, check_limit
+from service.core.quality.gates import OTHER_LENS, Measurement, check_limit
 from service.core.vision.camera import Intrinsics, reach_share, unproject
 from service.core.vision.transforms import stack_poses
 
 GATE = "model"
 OTHER = (
     "The views do not determine this camera, or the lens model does not suit it: "
-    "take other views, with the board tilted, or choose another lens model."
+    "take other views, with the board tilted, fix the coefficients that this lens does not need, "
+    "or choose another lens model."
 )
 RATIO_CAP = 10.0  # a polynomial that never folds has an infinite ratio, which no report can show
 
@@ -74,7 +75,7 @@ def _monotone(evidence: Evidence) -> Measurement:
         good="The distortion grows steadily beyond the farthest corner.",
         bad="The distortion folds back inside the image, so that two directions share a pixel.",
         remedy="The lens is wider than this lens model can describe, or no corner was seen near the border: "
-        "choose another lens model, or add views with the board in the corners of the image.",
+        f"add views with the board in the corners of the image. {OTHER_LENS}",
     )
 
 

@@ -25,9 +25,7 @@ def nominal_start(nominal: Intrinsics, stack: ViewStack) -> Estimate:
     """
     for share in DISTORTION_SHARES:
         vector = nominal.vector * np.r_[np.ones(4), np.full(len(nominal.dist_coeffs), share)]
-        rays = unproject(
-            Intrinsics.from_vector(nominal.lens, vector, nominal.image_size), stack.image_points
-        )
+        rays = unproject(Intrinsics.from_vector(nominal.lens, vector, nominal.image_size), stack.image_points)
         if np.all(np.isfinite(rays)):
             return Estimate(vector, *planar_poses(stack, rays))
     plain = np.r_[nominal.vector[:4], np.zeros(len(nominal.dist_coeffs))]

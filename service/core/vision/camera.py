@@ -16,6 +16,7 @@ from service.core.vision.transforms import Array
 LENSES: Mapping[str, Lens] = {
     module.LENS.name: module.LENS for module in (lens_pinhole5, lens_rational8, lens_kannala_brandt4)
 }
+LARGEST = float(np.finfo(np.float64).max)
 PINHOLE = ("fx", "fy", "cx", "cy")
 
 
@@ -146,5 +147,6 @@ def reach_share(intrinsics: Intrinsics, points: Array) -> Array:
     From one on, and inf without image, two directions share a pixel: the model says nothing there.
     """
     lens = LENSES[intrinsics.lens]
-    share: Array = lens.radius(points) / lens.reach(intrinsics.vector[4:])
+    # A point without image must have an infinite share of an infinite reach, too.
+    share: Array = lens.radius(points) / min(lens.reach(intrinsics.vector[4:]), LARGEST)
     return share

@@ -29,7 +29,7 @@ class KannalaBrandt4:
         return points[..., :2] * scale[..., None]
 
     def project_with_jacobians(self, points: Array, k: Array) -> tuple[Array, Array, Array]:
-        """Return image coordinates (..., 2), derivatives by points (2, 3, ...) and coefficients (2, 4, ...).
+        """Return image coordinates (..., 2), derivatives by points (2, 3, ...) and by k (2, 4, ...).
 
         With s = θd/ρ and ρ² = X² + Y²: ∂s/∂ρ = (θd′ Z/(ρ² + Z²) − s)/ρ, ∂s/∂Z = −θd′/(ρ² + Z²).
         """

@@ -81,4 +81,6 @@ def _largest_cubic_root(a: float, b: float, c: float) -> float:
     return y - a / 3.0
 
 
-LENS = PerspectiveLens("pinhole5", ("k1", "k2", "p1", "p2", "k3"), distort, distort_with_jacobians, monotone_radius)
+LENS = PerspectiveLens(
+    "pinhole5", ("k1", "k2", "p1", "p2", "k3"), distort, distort_with_jacobians, monotone_radius
+)

@@ -37,7 +37,7 @@ class PerspectiveLens:
         return self.distort(np.where(seen, points[..., :2], np.nan) / np.where(seen, z, 1.0), k)
 
     def project_with_jacobians(self, points: Array, k: Array) -> tuple[Array, Array, Array]:
-        """Return image coordinates (..., 2), derivatives by points (2, 3, ...) and coefficients (2, c, ...)."""
+        """Return image coordinates (..., 2), derivatives by points (2, 3, ...) and by k (2, c, ...)."""
         inverse_z = 1.0 / points[..., 2]
         ideal = points[..., :2] * inverse_z[..., None]
         distorted, by_ideal, by_k = self.distort_with_jacobians(ideal, k)
