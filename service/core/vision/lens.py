@@ -26,6 +26,11 @@ class Lens(Protocol):
         ...
 
     @property
+    def weak(self) -> tuple[str, ...]:
+        """Coefficients that only many corners determine: the way from a start leaves them as they are."""
+        ...
+
+    @property
     def sweep_hfov_deg(self) -> tuple[float, ...]:
         """Horizontal fields of view, narrow to wide, from which to look for a camera nobody knows."""
         ...

@@ -19,6 +19,7 @@ class KannalaBrandt4:
 
     name = "kannala_brandt4"
     coefficients = ("k1", "k2", "k3", "k4")
+    weak = ()
     sweep_hfov_deg = (60.0, 90.0, 120.0, 160.0, 200.0)
 
     def project(self, points: Array, k: Array) -> Array:

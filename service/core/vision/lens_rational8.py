@@ -92,5 +92,6 @@ LENS = PerspectiveLens(
     distort,
     distort_with_jacobians,
     monotone_radius,
+    weak=("k6",),
     sweep_hfov_deg=(40.0, 60.0, 90.0, 120.0, 140.0),
 )

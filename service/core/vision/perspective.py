@@ -28,6 +28,7 @@ class PerspectiveLens:
     distort: Callable[[Array, Array], Array]
     distort_with_jacobians: Callable[[Array, Array], tuple[Array, Array, Array]]
     reach_of: Callable[[Array], float]
+    weak: tuple[str, ...] = ()
     sweep_hfov_deg: tuple[float, ...] = (40.0, 60.0, 90.0, 120.0)
 
     def project(self, points: Array, k: Array) -> Array:
