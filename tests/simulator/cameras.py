@@ -4,7 +4,7 @@ import numpy as np
 
 from service.core.vision.camera import Intrinsics, unproject
 from service.core.vision.target import Chessboard, parse_target
-from service.core.vision.transforms import Pose, rotation_matrix, rotation_vector
+from service.core.vision.transforms import Pose, compose, rotation_matrix, rotation_vector
 
 LENS_1 = Intrinsics.from_parameters(
     "pinhole5",
@@ -63,9 +63,18 @@ def centred_pose(target: Chessboard, degrees: tuple[float, ...], centre: tuple[f
 
 
 def varied_poses(camera: Intrinsics) -> list[Pose]:
-    """Return a dozen poses at which a camera sees the 9x6 board whole."""
+    """Return a dozen poses at which a camera sees the 9x6 board whole.
+
+    Of a fisheye depth and turn are along the line of sight: far aside, a board that faces along the axis
+    shows its edge.
+    """
     poses = []
     for *degrees, share_x, share_y, depth in VARIED:
         ray = unproject(camera, np.array([share_x, share_y]) * camera.image_size)
-        poses.append(centred_pose(BOARD, tuple(degrees), tuple(ray / ray[2] * depth)))
+        if camera.lens == "pinhole5":
+            poses.append(centred_pose(BOARD, tuple(degrees), tuple(ray / ray[2] * depth)))
+            continue
+        aside = np.cross([0.0, 0.0, 1.0], ray)
+        turn = Pose(aside / np.linalg.norm(aside) * np.arccos(ray[2]), np.zeros(3))
+        poses.append(compose(turn, centred_pose(BOARD, tuple(degrees), (0.0, 0.0, depth))))
     return poses

@@ -13,9 +13,9 @@ from service.core.vision.transforms import Array, Pose
 from service.simulator.live_renderer import LiveRenderer, halve_scene
 from service.simulator.renderer import PreparedScene, prepare
 from service.simulator.scene import Scene, clean_scene, production_scene, true_corners
-from tests.simulator.cameras import BOARD, LENS_1, LENS_2, centred_pose, varied_poses
+from tests.simulator.cameras import BOARD, FISHEYE, LENS_1, LENS_2, centred_pose, varied_poses
 
-LENSES = {"lens 1": LENS_1, "lens 2": LENS_2}
+LENSES = {"lens 1": LENS_1, "lens 2": LENS_2, "fisheye": FISHEYE}
 NOWHERE = centred_pose(BOARD, (0, 0, 0), (3.0, 0.0, 0.4))
 SMALL = Intrinsics.from_parameters(
     "pinhole5", {"fx": 270.0, "fy": 270.4, "cx": 131.0, "cy": 76.4, "k1": -0.3774, "k2": 0.2425}, (256, 160)

@@ -9,10 +9,10 @@ from service.core.vision.detection import detect_target
 from service.core.vision.transforms import Array, Pose
 from service.simulator.renderer import PreparedScene, prepare, render
 from service.simulator.scene import Scene, clean_scene, production_scene, true_corners
-from tests.simulator.cameras import BOARD, LENS_1, LENS_2, centred_pose, varied_poses
+from tests.simulator.cameras import BOARD, FISHEYE, LENS_1, LENS_2, centred_pose, varied_poses
 
 BACKGROUND = 90.0
-LENSES = {"lens 1": LENS_1, "lens 2": LENS_2}
+LENSES = {"lens 1": LENS_1, "lens 2": LENS_2, "fisheye": FISHEYE}
 SMALL = Intrinsics.from_parameters(
     "pinhole5", {"fx": 270.0, "fy": 270.4, "cx": 131.0, "cy": 76.4, "k1": -0.3774, "k2": 0.2425}, (256, 160)
 )
@@ -60,7 +60,7 @@ def test_light_equals_thousands_of_rays_per_pixel_to_half_a_grey_level(
     assert np.ptp(crop) > 0.95 * contrast  # else the crop would hold no edge
 
 
-@pytest.mark.parametrize("lens", LENSES)
+@pytest.mark.parametrize("lens", ["lens 1", "lens 2"])
 def test_corners_detected_on_clean_pictures_lie_within_three_hundredths_of_a_pixel(lens: str) -> None:
     prepared, errors = _clean(lens), []
     for pose in varied_poses(LENSES[lens]):

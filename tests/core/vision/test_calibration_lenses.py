@@ -4,7 +4,6 @@ import cv2
 import numpy as np
 import pytest
 
-from service.core.errors import DegenerateViews
 from service.core.vision.calibration import calibrate_intrinsics
 from service.core.vision.camera import Intrinsics
 from service.core.vision.leave_one_out import leave_one_out
@@ -137,18 +136,14 @@ def test_the_predicted_deviations_are_what_repeated_noise_shows(
     assert np.sqrt(np.mean(squares)) == pytest.approx(expected_px, rel=0.1)
 
 
-def test_views_that_leave_a_coefficient_open_are_no_result_that_passes() -> None:
-    """Boards near the middle only say nothing about how a rational lens ends."""
-    exact = [
+@pytest.mark.parametrize("lens", ["rational8", "kannala_brandt4"])
+def test_what_boards_in_the_middle_cannot_tell_of_the_corners_is_not_claimed(lens: str) -> None:
+    views = [
         View(view.object_points[:20], view.image_points[:20])
         for view in views_of(RATIONAL, 60, seed=8)
         if np.all(np.abs(view.image_points - RATIONAL.vector[2:4]) < 420.0)
     ]
-    assert len(exact) >= 4
-    try:
-        result = calibrate_intrinsics(exact, RATIONAL.image_size, RATIONAL.lens)
-    except DegenerateViews as error:
-        assert "fix the parameters" in error.detail
-        return
-    error_px = mapping_error(result.intrinsics, result.covariance, whole_image(RATIONAL.image_size))
-    assert not result.converged or error_px.worst_px > 5.0
+    result = calibrate_intrinsics(views, RATIONAL.image_size, lens)
+    whole = mapping_error(result.intrinsics, result.covariance, whole_image(RATIONAL.image_size))
+    assert mapping_error(result.intrinsics, result.covariance, seen_pixels(views)).mean_px < 2.0
+    assert whole.worst_px > 20.0
