@@ -12,7 +12,12 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from service.core.errors import PoseSpaceEmpty
-from service.core.planning.visibility import LENS_SHARE, measure_visibility, place_targets
+from service.core.planning.visibility import (
+    FARTHEST_ASIDE_RAD,
+    LENS_SHARE,
+    measure_visibility,
+    place_targets,
+)
 from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
@@ -30,8 +35,8 @@ REMEDIES: Mapping[str, str] = {
     "lower smallest_square_px, or take larger squares",
     "largest_incidence_deg": "boards are seen too obliquely: allow less yaw and pitch, or a larger "
     "largest_incidence_deg",
-    "lens": "boards reach beyond where the lens model is monotone: check its coefficients, or keep boards "
-    "off the image corners with a larger image_margin_px",
+    "lens": "boards reach beyond where the lens model is monotone, or farther aside than a hand can be led: "
+    "check its coefficients, or keep boards off the image corners with a larger image_margin_px",
 }
 
 
@@ -121,7 +126,7 @@ def infeasibilities(
         "image_margin_px": ~(seen.clearance_px >= space.image_margin_px),
         "smallest_square_px": seen.smallest_square_px < space.smallest_square_px,
         "largest_incidence_deg": seen.incidence_rad > np.deg2rad(space.largest_incidence_deg),
-        "lens": seen.lens_share > LENS_SHARE,
+        "lens": (seen.lens_share > LENS_SHARE) | (seen.aside_rad > FARTHEST_ASIDE_RAD),
     }
 
 

@@ -20,6 +20,8 @@ PLACING_SLACK_PX = 0.5
 BORDER_SHARE = 0.25
 # A lens model is trusted up to this share of the radius where it turns back.
 LENS_SHARE = 0.98
+# Words such as left and closer lead a hand no farther aside than this; only a fisheye sees boards beyond.
+FARTHEST_ASIDE_RAD = float(np.deg2rad(62.0))
 
 
 @dataclass(frozen=True)
@@ -29,12 +31,14 @@ class Visibility:
     clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
     shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
     to a corner. lens_share: how far out the outermost corner is, as a share of the reach of the lens.
+    aside_rad: angle between the optical axis and the line of sight to the target's centre.
     """
 
     clearance_px: Array
     smallest_square_px: Array
     incidence_rad: Array
     lens_share: Array
+    aside_rad: Array
 
 
 def measure_visibility(
@@ -44,12 +48,14 @@ def measure_visibility(
     points = target.object_points @ np.swapaxes(rotations, -1, -2) + translations[:, None, :]
     pixels = project(intrinsics, rotations, translations, target.object_points)
     to_border = np.minimum(pixels, np.array(intrinsics.image_size) - 1.0 - pixels)
+    centres = rotations @ target.centre + translations
     cosine = np.einsum("mni,mi->mn", points, rotations[:, :, 2]) / np.linalg.norm(points, axis=-1)
     return Visibility(
         clearance_px=to_border.min(axis=(1, 2)),
         smallest_square_px=_shortest_side(pixels, target),
         incidence_rad=np.arccos(np.clip(cosine, -1.0, 1.0)).max(axis=1),
         lens_share=reach_share(intrinsics, points).max(axis=1),
+        aside_rad=np.arctan2(np.hypot(centres[:, 0], centres[:, 1]), centres[:, 2]),
     )
 
 
