@@ -119,12 +119,15 @@ def _solve_with_opencv(unit: Unit, design: Design, criteria: tuple[int, int, flo
         return _solve_fisheye_with_opencv(unit, criteria)
     boards = [view.object_points.astype(np.float32) for view in unit.views]
     corners = [view.image_points.astype(np.float32) for view in unit.views]
-    size, K, k = unit.true.image_size, np.zeros((3, 3)), np.zeros(len(unit.true.dist_coeffs))
+    size, count = unit.true.image_size, len(unit.true.dist_coeffs)
     flags = cv2.CALIB_RATIONAL_MODEL if unit.true.lens == "rational8" else 0
     flags += cv2.CALIB_FIX_K6 if "k6" in design.fixed else 0
     # OpenCV returns the rational model's coefficients in a vector with places for further models.
-    _, K, k, *_ = cv2.calibrateCameraExtended(boards, corners, size, K, k, flags=flags, criteria=criteria)
-    return Intrinsics(unit.true.lens, np.asarray(K), np.ravel(k)[: len(unit.true.dist_coeffs)], size)
+    _, found_K, found_k, *_ = cv2.calibrateCameraExtended(
+        boards, corners, size, np.zeros((3, 3)), np.zeros(count), flags=flags, criteria=criteria
+    )
+    K, k = np.asarray(found_K, dtype=np.float64), np.asarray(found_k, dtype=np.float64)
+    return Intrinsics(unit.true.lens, K, k.ravel()[:count], size)
 
 
 def _solve_fisheye_with_opencv(unit: Unit, criteria: tuple[int, int, float]) -> Intrinsics:

@@ -33,23 +33,28 @@ def seen_pixels(views: list[View]) -> Array:
 
 def solve_with_opencv(views: list[View], camera: Intrinsics) -> tuple[float, Intrinsics]:
     """Return OpenCV's rms and optimum for the camera's lens model, from its own start."""
-    K, k = np.zeros((3, 3)), np.zeros((len(camera.dist_coeffs), 1))
+    count = len(camera.dist_coeffs)
+    nothing = np.zeros((3, 3)), np.zeros((count, 1))
     if camera.lens == "rational8":
-        boards = [view.object_points.astype(np.float32) for view in views]
-        corners = [view.image_points.astype(np.float32) for view in views]
-        flags = cv2.CALIB_RATIONAL_MODEL
-        rms, K, k, *_ = cv2.calibrateCamera(
-            boards, corners, camera.image_size, K, k, flags=flags, criteria=TIGHT
+        found = cv2.calibrateCamera(
+            [view.object_points.astype(np.float32) for view in views],
+            [view.image_points.astype(np.float32) for view in views],
+            camera.image_size,
+            *nothing,
+            flags=cv2.CALIB_RATIONAL_MODEL,
+            criteria=TIGHT,
         )
     else:
-        boards = [view.object_points[None] for view in views]
-        corners = [view.image_points[None] for view in views]
-        flags = cv2.CALIB_RECOMPUTE_EXTRINSIC + cv2.CALIB_FIX_SKEW
-        rms, K, k, *_ = cv2.fisheye.calibrate(
-            boards, corners, camera.image_size, K, k, flags=flags, criteria=TIGHT
+        found = cv2.fisheye.calibrate(
+            [view.object_points[None] for view in views],
+            [view.image_points[None] for view in views],
+            camera.image_size,
+            *nothing,
+            flags=cv2.CALIB_RECOMPUTE_EXTRINSIC + cv2.CALIB_FIX_SKEW,
+            criteria=TIGHT,
         )
-    coefficients = np.asarray(k, dtype=np.float64).ravel()[: len(camera.dist_coeffs)]
-    return float(rms), Intrinsics(camera.lens, np.asarray(K), coefficients, camera.image_size)
+    K, k = (np.asarray(part, dtype=np.float64) for part in found[1:3])
+    return float(found[0]), Intrinsics(camera.lens, K, k.ravel()[:count], camera.image_size)
 
 
 @WIDE_LENSES
