@@ -244,6 +244,9 @@ class MeasurementRow(Row):
     margin: Mapped[float | None]
     verdict: Mapped[Verdict] = mapped_column(word(Verdict, "verdict"))
     advice: Mapped[str]
+    # Both null in results that are older than codes; facts also where there are none.
+    reason: Mapped[str | None] = mapped_column(default=None)
+    facts: Mapped[JsonObject | None] = mapped_column(default=None)
 
 
 class ApiKeyRow(Row):

@@ -109,6 +109,8 @@ def _measurements(calibration_id: UUID, measurements: Iterable[Measurement]) -> 
             margin=one.margin,
             verdict=one.verdict,
             advice=one.advice,
+            reason=one.reason,
+            facts=dict(one.facts) or None,
         )
         for one in measurements
     ]

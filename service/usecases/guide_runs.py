@@ -11,13 +11,15 @@ from uuid import UUID
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from service.core.errors import NotFound, PoseSetNotPublished, StateForbids
+from service.core.errors import NotFound, PoseSetNotPublished
+from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose, RunState, check_serial
 from service.core.vision.transforms import Pose
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow, StationRow
 from service.storage.words import FrameOrigin, Publication
 from service.usecases.audit import record
 from service.usecases.observation import pose_from_json
+from service.usecases.run_filter import RunFilter
 from service.usecases.runs import Order, get_run, open_run
 from service.usecases.sku_document import Revision, SkuDocument
 from service.usecases.stations import get_station
@@ -27,11 +29,15 @@ SKUS_SHOWN = 100
 
 @dataclass(frozen=True)
 class Wish:
-    """What a kiosk asks for: a serial, the SKU where a run may be opened for it, and the purpose."""
+    """What a kiosk asks for: a serial, the SKU where a run may be opened for it, and the purpose.
+
+    Without a purpose the run is a retest where the serial has a result already, and else production: whoever
+    scans need not know.
+    """
 
     serial: str
     sku: str | None
-    purpose: Purpose
+    purpose: Purpose | None = None
 
 
 @dataclass(frozen=True)
@@ -84,8 +90,8 @@ def read_station(session: Session, code: str) -> StationView:
 def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -> UUID:
     """Return the open run of a serial at a station; opened where there is none.
 
-    A run that was ordered without a station becomes this one's. Raises SerialInvalid, NotFound, StateForbids
-    (its SKU is another one), RevisionNotPublished, PoseSetNotPublished.
+    A run that was ordered without a station becomes this one's. Raises SerialInvalid, NotFound, OtherSkuOpen,
+    RevisionNotPublished, PoseSetNotPublished.
     """
     station = get_station(session, code)
     # Two kiosks that scan the same serial at the same moment must not open two runs.
@@ -96,7 +102,7 @@ def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -
         return _open(session, station, serial, wish, who=who, now=now)
     sku = _sku_code(session, found)
     if wish.sku is not None and wish.sku != sku:
-        raise StateForbids(
+        raise OtherSkuOpen(
             f"Serial '{serial}' has an open run for SKU '{sku}', not '{wish.sku}'. Continue that run, or "
             "abort it first.",
             serial=serial,
@@ -147,9 +153,7 @@ def _open(session: Session, station: StationRow, serial: str, wish: Wish, *, who
             f"There is no open run for serial '{serial}' at this station. Choose its SKU to open one.",
             serial=serial,
         )
-    # What a simulator shows says nothing about a vehicle and must not count for the line's yield.
-    is_virtual = station.source is FrameOrigin.VIRTUAL
-    purpose = Purpose.SIMULATED if is_virtual else wish.purpose
+    purpose = _purpose(session, station, serial, wish)
     opened = open_run(session, Order(wish.sku, serial, station.code, purpose), who, now)
     if opened.pose_set_id is None:
         raise PoseSetNotPublished(
@@ -158,6 +162,16 @@ def _open(session: Session, station: StationRow, serial: str, wish: Wish, *, who
             sku=wish.sku,
         )
     return opened.id
+
+
+def _purpose(session: Session, station: StationRow, serial: str, wish: Wish) -> Purpose:
+    # What a simulator shows says nothing about a vehicle and must not count for the line's yield.
+    if station.source is FrameOrigin.VIRTUAL:
+        return Purpose.SIMULATED
+    if wish.purpose is not None:
+        return wish.purpose
+    tested = RunFilter(serial=serial, sku=wish.sku, counted=True).narrow(select(RunRow.id)).limit(1)
+    return Purpose.PRODUCTION if session.scalar(tested) is None else Purpose.RETEST
 
 
 def _open_of_serial(session: Session, station: StationRow, serial: str) -> RunRow | None:

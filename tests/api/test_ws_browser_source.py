@@ -19,7 +19,7 @@ SERIAL = "VIN-1"
 @pytest.fixture
 def station(sqlite_address: str, tmp_path: Path) -> Iterator[Plant]:
     """A plant with a station whose kiosk has the camera."""
-    with running_plant(sqlite_address, tmp_path) as running:
+    with running_plant(sqlite_address, tmp_path, max_image_megapixels=1) as running:
         running.publish_sku()
         add_station(running, source="browser")
         yield running
@@ -185,6 +185,18 @@ def test_a_frame_with_missing_bytes_ends_the_socket(station: Plant) -> None:
         Camera(kiosk).send(pixels(0), 1, width=641)
         assert kiosk.until("problem")["code"] == "bad-request"
         assert kiosk.socket.receive()["code"] == 4400
+
+
+@pytest.mark.parametrize("garbage", ["no json", b"\xff" * 40, b"\x02\x00\x00\x00{}" + b"x" * 3_000_000])
+def test_garbage_in_the_middle_of_a_run_loses_no_capture(station: Plant, garbage: str | bytes) -> None:
+    with connected(station) as kiosk:
+        opened(kiosk)
+        accepted = Camera(kiosk).run_until("capture_accepted")
+        kiosk.socket.send_text(garbage) if isinstance(garbage, str) else kiosk.socket.send_bytes(garbage)
+        assert kiosk.until("problem")["code"] in {"bad-request", "too-large"}
+
+    with connected(station) as kiosk:
+        assert kiosk.until("run")["captured"] == [accepted["pose_index"]]
 
 
 def test_a_full_frame_that_nobody_asked_for_changes_nothing(station: Plant) -> None:

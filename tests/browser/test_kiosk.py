@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, WebSocketRoute, expect
 
 from tests.browser.chromium import Watch, find_chromium
 from tests.browser.kiosk_station import (
@@ -75,6 +75,14 @@ def test_a_camera_that_fails_is_said_to_the_whole_hall_with_what_to_do(
     assert height > 200
     page.screenshot(path=shots / "kiosk-fail.png")
     assert stored_run(stations, "VIN-KIOSK-0002")["verdict"] == "FAIL"
+    page.evaluate("localStorage.setItem('dmscal.language', 'de')")
+    page.reload()
+    expect(verdict_of(page).locator(".why li").first).to_contain_text("Die Brennweite ist zu unsicher.")
+    expect(page.locator(".verdict [lang=en]")).to_have_count(0)
+    page.screenshot(path=shots / "kiosk-fail-german.png")
+    page.evaluate("localStorage.removeItem('dmscal.language')")
+    page.reload()
+    expect(verdict_of(page)).to_contain_text("FAIL")
     # Whoever scans at a verdict goes on with the next vehicle, without a button.
     page.keyboard.type("VIN-KIOSK-0022")
     page.keyboard.press("Enter")
@@ -103,7 +111,9 @@ def test_keys_alone_are_enough(page: Page, stations: Serving) -> None:
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_have_count(0)
     page.keyboard.press("Escape")
+    expect(page.get_by_role("button", name="Go on")).to_be_focused()
     page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Abort the run")).to_be_focused()
     page.keyboard.press("Enter")
 
     expect(page.get_by_label("Serial", exact=True)).to_be_visible()
@@ -192,18 +202,34 @@ def test_german_and_dark_show_the_same(page: Page, stations: Serving, shots: Pat
     expect(page.get_by_label("Seriennummer", exact=True)).to_be_visible()
 
 
-def test_a_second_kiosk_is_told_who_holds_the_station_and_takes_over(
+def test_a_second_kiosk_on_a_running_run_is_told_who_holds_the_station_and_takes_the_run_over(
     page: Page, stations: Serving, shots: Path
 ) -> None:
     open_kiosk(page, stations)
+    scan(page, "VIN-KIOSK-0008")
     second = page.context.new_page()
     second.goto(f"{stations.url}/kiosk?station=line1#key={stations.key}")
     expect(second.get_by_role("alert")).to_contain_text("Another kiosk holds this station", timeout=20_000)
     second.screenshot(path=shots / "kiosk-taken.png")
+    wait_for_captures(page, 1)
     page.goto("about:blank")
 
-    expect(second.get_by_label("Serial", exact=True)).to_be_visible(timeout=20_000)
+    expect(second.locator(".whose-serial")).to_have_text("VIN-KIOSK-0008", timeout=20_000)
+    assert taken(second) >= 1
+    _abort(second)
     second.close()
+
+
+def test_a_page_of_another_version_is_asked_to_be_loaded_again(page: Page, stations: Serving) -> None:
+    def speak_otherwise(route: WebSocketRoute) -> None:
+        server = route.connect_to_server()
+        route.on_message(lambda said: server.send(str(said).replace('"protocol":1', '"protocol":9')))
+
+    page.route_web_socket("**/guidance", speak_otherwise)
+    page.goto(f"{stations.url}/kiosk?station=line1#key={stations.key}")
+
+    expect(page.get_by_role("alert")).to_contain_text("Load the page again")
+    expect(page.get_by_role("button", name="Load again")).to_be_visible()
 
 
 def test_an_unknown_station_and_a_refused_key_say_what_to_do(page: Page, stations: Serving) -> None:

@@ -10,10 +10,11 @@ from service.core.quality.gates import Verdict
 from service.core.quality.verdict import Expectation, calibrate_and_judge
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
+from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.uncertainty import mapping_difference
 from service.simulator.renderer import prepare
 from service.simulator.scene import production_scene
-from service.simulator.vehicle import Mismatch, Tolerance, draw_camera, take_captures
+from service.simulator.vehicle import Mismatch, take_captures
 from tests.simulator.cameras import BOARD, FISHEYE
 
 RATIONAL = Intrinsics.from_vector(

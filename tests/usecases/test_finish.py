@@ -65,6 +65,8 @@ def test_a_capture_at_the_wrong_pose_fails_the_poses_gate(small_plant: Plant) ->
     result = small_plant.expect(200, small_plant.finish(run_id))
     assert result["verdict"] == "FAIL"
     assert "poses" in {gate["gate"] for gate in result["gates"] if gate["verdict"] == "FAIL"}
+    (missing,) = [gate for gate in result["gates"] if gate["name"] == "missing_poses"]
+    assert (missing["reason"], missing["facts"]) == ("missing_poses", {"poses": [1, count], "more": 0})
 
 
 def swap_uploads(plant: Plant, run_id: str, swap: dict[int, int]) -> list[float]:

@@ -123,6 +123,7 @@ def test_the_document_is_json_without_nan(calibrated: FolderCalibration) -> None
     assert list(document["intrinsics"]) == list(document["sd"])
     assert set(document["gates"][0]) == {
         "gate", "name", "value", "unit", "limit", "comparison", "margin", "verdict", "advice",
+        "reason", "facts",
     }  # fmt: skip
     assert set(document["images"][0]) == {"name", "status", "reason", "detail", "rms_px"}
     assert {"lens", "image_size", "sigma_px", "rms_px", "mapping", "score", "versions"} <= set(document)

@@ -2,7 +2,8 @@
 
 import pytest
 
-from service.core.errors import PoseTaken, ServiceError, StateForbids
+from service.core.errors import PoseTaken, ServiceError
+from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose
 from service.usecases import guide
 from service.usecases.guide import GuidedSession, open_session, resume_session
@@ -21,7 +22,7 @@ from tests.guiding import Film, add_station, pixels
 from tests.plant import SKU, Plant, poses_json
 
 POSES = len(poses_json())
-WISH = Wish("VIN-1", "tiny", Purpose.PRODUCTION)
+WISH = Wish("VIN-1", "tiny")
 
 
 @pytest.fixture
@@ -154,8 +155,41 @@ def test_an_open_run_of_another_sku_is_not_taken(guided: guide.Plant, small_plan
     open_session(guided, "cal1", WISH, "test")
     small_plant.expect(201, small_plant.post("/skus", {**SKU, "code": "other"}))
 
-    with pytest.raises(StateForbids, match="tiny"):
-        open_session(guided, "cal1", Wish("VIN-1", "other", Purpose.PRODUCTION), "test")
+    with pytest.raises(OtherSkuOpen, match="tiny"):
+        open_session(guided, "cal1", Wish("VIN-1", "other"), "test")
+
+
+@pytest.mark.parametrize(
+    ("asked", "given"), [(None, Purpose.RETEST), (Purpose.GOLDEN, Purpose.GOLDEN)], ids=["scanned", "named"]
+)
+def test_a_serial_with_a_result_is_a_retest_unless_a_purpose_is_named(
+    guided: guide.Plant, small_plant: Plant, asked: Purpose | None, given: Purpose
+) -> None:
+    first = open_session(guided, "cal1", Wish("VIN-1", "tiny"), "test")
+    resumed = open_session(guided, "cal1", Wish("VIN-1", "tiny"), "test")
+    run_film(resumed, Film(), VerdictView)
+
+    again = open_session(guided, "cal1", Wish("VIN-1", "tiny", asked), "test")
+    other = open_session(guided, "cal1", Wish("VIN-2", "tiny"), "test")
+
+    assert resumed.run.id == first.run.id != again.run.id
+    assert [one.show_run().purpose for one in (first, again, other)] == [
+        Purpose.PRODUCTION,
+        given,
+        Purpose.PRODUCTION,
+    ]
+
+
+def test_a_run_without_a_result_makes_no_retest(guided: guide.Plant, small_plant: Plant) -> None:
+    open_session(guided, "cal1", Wish("VIN-1", "tiny"), "test").abort()
+    trial = small_plant.open_run("VIN-1", purpose="trial")
+    for index in range(POSES):
+        small_plant.upload(trial, index)
+    small_plant.expect(200, small_plant.finish(trial))
+
+    again = open_session(guided, "cal1", Wish("VIN-1", "tiny"), "test")
+
+    assert again.run.purpose is Purpose.PRODUCTION
 
 
 def test_a_run_without_a_pose_set_cannot_be_guided(guided: guide.Plant, small_plant: Plant) -> None:

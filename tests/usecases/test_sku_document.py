@@ -3,7 +3,9 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
+from service.core.planning.fixture import Box
 from service.core.vision.camera import LENSES
+from service.core.vision.tolerance import Tolerance
 from service.usecases.sku_document import EXAMPLE, SkuDocument
 from tests.plant import SKU
 
@@ -65,6 +67,13 @@ def test_every_lens_of_the_registry_may_be_declared_and_is_in_the_schema() -> No
         ({"pose_space": {"yaw_deg": [45, -45]}}, "[smallest, largest]"),
         ({"pose_space": {"distance": [1, 2]}}, "not permitted"),
         ({"pose_space": {"distance_m": [0, 1]}}, "greater than 0"),
+        ({"pose_space": {"depth_of_field_m": [0.9, 0.3]}}, "[smallest, largest]"),
+        ({"pose_space": {"excluded_boxes": [{"low_m": [0, 1, 0], "high_m": [1, 0, 1]}]}}, "at most that"),
+        ({"nominal": {}}, "missing: fx, fy, cx, cy"),
+        ({"nominal": {}, "data_sheet": {"hfov_deg": 190}}, "190 degrees is impossible"),
+        ({"tolerance": {"focal_share": -0.1}}, "greater than or equal"),
+        ({"tolerance": {"focal": 0.1}}, "not permitted"),
+        ({"required_mapping_px": 0}, "greater than 0"),
         ({"corner_noise_px": 0}, "greater than 0"),
         ({"fixed": ["k9"]}, "k9"),
         ({"limits": {"rms": 1}}, "rms_px"),
@@ -79,6 +88,37 @@ def test_a_wrong_document_is_refused_with_words_that_help(change: dict[str, Any]
         SkuDocument.model_validate({**as_dict(EXAMPLE), **change})
 
     assert words in str(refusal.value)
+
+
+def test_a_data_sheet_stands_in_for_a_nominal_that_is_not_given() -> None:
+    document = {**as_dict(EXAMPLE), "data_sheet": {"hfov_deg": 90.0}}
+    given = SkuDocument.model_validate(document)
+    del document["nominal"]
+    derived = SkuDocument.model_validate(document)
+
+    assert given.nominal == as_dict(EXAMPLE)["nominal"]
+    assert derived.nominal["fx"] == pytest.approx(640.0)
+    assert SkuDocument.model_validate_json(derived.model_dump_json()) == derived
+
+
+def test_the_required_accuracy_is_by_default_where_the_gate_still_passes() -> None:
+    revision = SkuDocument.model_validate(EXAMPLE).to_revision()
+    strict = SkuDocument.model_validate({**as_dict(EXAMPLE), "required_mapping_px": 0.05}).to_revision()
+
+    assert revision.required_mapping_px == pytest.approx(0.8 * 0.30)
+    assert strict.required_mapping_px == 0.05
+
+
+def test_a_fixture_a_depth_of_field_and_a_tolerance_become_the_cores_values() -> None:
+    box = {"low_m": [-1.0, 0.2, 0.0], "high_m": [1.0, 0.5, 2.0]}
+    space = {"excluded_boxes": [box], "depth_of_field_m": [0.3, 0.8]}
+    change = {"pose_space": space, "tolerance": {"focal_share": 0.01, "coefficients": {"k1": 0.02}}}
+    revision = SkuDocument.model_validate({**as_dict(EXAMPLE), **change}).to_revision()
+
+    assert revision.pose_space.excluded_boxes == (Box((-1.0, 0.2, 0.0), (1.0, 0.5, 2.0)),)
+    assert revision.pose_space.depth_of_field_m == (0.3, 0.8)
+    assert (revision.tolerance.focal_share, revision.tolerance.coefficients) == (0.01, {"k1": 0.02})
+    assert revision.tolerance.centre_px == Tolerance().centre_px
 
 
 def as_dict(document: Any) -> dict[str, Any]:

@@ -30,6 +30,10 @@ class Measurement(Answer):
     )
     verdict: Verdict
     advice: str
+    reason: str | None = Field(
+        description="Code of what `advice` says, for other languages; null for results of before."
+    )
+    facts: dict[str, JsonValue] | None = Field(description="What `advice` names besides value and limit.")
 
 
 class BoardPose(Answer):
@@ -90,6 +94,8 @@ EXAMPLE: JsonValue = {
             "margin": 0.233,
             "verdict": "PASS",
             "advice": "The corners fit the camera model.",
+            "reason": "rms_px",
+            "facts": None,
         }
     ],
     "views": [],

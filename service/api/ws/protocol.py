@@ -65,8 +65,11 @@ class OpenRun(Request):
     type: Literal["open_run"]
     serial: Serial
     sku: Code | None = Field(default=None, description="Null: only resume a run that is open already.")
-    purpose: Purpose = Field(
-        default=Purpose.PRODUCTION, strict=False, description="A virtual station's runs are `simulated`."
+    purpose: Purpose | None = Field(
+        default=None,
+        strict=False,
+        description="Null: `retest` where the serial has a counted result for this SKU, else `production`. A"
+        " virtual station's runs are `simulated`.",
     )
 
 
@@ -252,6 +255,8 @@ class GateLine(Told):
     margin: float | None
     verdict: Verdict
     advice: str
+    reason: str | None = Field(description="Code of what `advice` says, for other languages.")
+    facts: dict[str, Any] | None = Field(description="What `advice` names besides value and limit.")
 
 
 class RunVerdict(Told):

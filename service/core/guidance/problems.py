@@ -52,6 +52,13 @@ class KioskLeft(Unavailable):
     title = "The kiosk is not connected"
 
 
+class OtherSkuOpen(Conflict):
+    """The serial that was scanned has an open run for another SKU than the one that was chosen."""
+
+    code = "other-sku-open"
+    title = "The serial has an open run for another SKU"
+
+
 class RevisionRetired(Conflict):
     """The SKU revision of an open run was retired since the run was opened."""
 

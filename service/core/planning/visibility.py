@@ -3,9 +3,11 @@
 Not here: which bounds that must meet (`pose_space`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project, reach_share, unproject
 from service.core.vision.target import Chessboard
@@ -26,12 +28,13 @@ FARTHEST_ASIDE_RAD = float(np.deg2rad(62.0))
 
 @dataclass(frozen=True)
 class Visibility:
-    """What m poses look like; every array (m,), NaN where the lens has no image of a corner.
+    """What m poses look like; arrays (m,), NaN where the lens has no image; image_points (m, n, 2) px.
 
     clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
     shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
     to a corner. lens_share: how far out the outermost corner is, as a share of the reach of the lens.
-    aside_rad: angle between the optical axis and the line of sight to the target's centre.
+    aside_rad: angle between the optical axis and the line of sight to the target's centre. nearest_m,
+    farthest_m: smallest and largest depth of a corner. columns: of the target's corners.
     """
 
     clearance_px: Array
@@ -39,6 +42,36 @@ class Visibility:
     incidence_rad: Array
     lens_share: Array
     aside_rad: Array
+    nearest_m: Array
+    farthest_m: Array
+    image_points: Array
+    columns: int
+
+    @property
+    def skew(self) -> Array:
+        """Mean |sin 2θ| (m,) of the edges' angle θ to the pixel grid, of rows or columns, whichever is less.
+
+        0 where edges run along the pixel grid, 1 where all run at 45° to it.
+        """
+        grid = self.image_points.reshape(len(self.image_points), -1, self.columns, 2)
+        means = []
+        for axis in (1, 2):
+            x, y = np.moveaxis(np.diff(grid, axis=axis), -1, 0)
+            means.append(np.mean(np.abs(2.0 * x * y) / (x * x + y * y), axis=(1, 2)))
+        skew: Array = np.minimum(*means)
+        return skew
+
+    def part(self, index: NDArray[np.bool_] | slice) -> "Visibility":
+        """Return what some of the poses look like."""
+        arrays = {name: value[index] for name, value in self.__dict__.items() if name != "columns"}
+        return Visibility(**arrays, columns=self.columns)
+
+    @staticmethod
+    def join(parts: "Sequence[Visibility]") -> "Visibility":
+        """Return what the poses of all parts look like, in their order."""
+        names = [name for name in parts[0].__dict__ if name != "columns"]
+        arrays = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+        return Visibility(**arrays, columns=parts[0].columns)
 
 
 def measure_visibility(
@@ -49,13 +82,18 @@ def measure_visibility(
     pixels = project(intrinsics, rotations, translations, target.object_points)
     to_border = np.minimum(pixels, np.array(intrinsics.image_size) - 1.0 - pixels)
     centres = rotations @ target.centre + translations
-    cosine = np.einsum("mni,mi->mn", points, rotations[:, :, 2]) / np.linalg.norm(points, axis=-1)
+    length = np.sqrt(points[..., 0] ** 2 + points[..., 1] ** 2 + points[..., 2] ** 2)
+    cosine = (points @ rotations[:, :, 2, None])[..., 0] / length
     return Visibility(
         clearance_px=to_border.min(axis=(1, 2)),
         smallest_square_px=_shortest_side(pixels, target),
-        incidence_rad=np.arccos(np.clip(cosine, -1.0, 1.0)).max(axis=1),
+        incidence_rad=np.arccos(np.clip(cosine.min(axis=1), -1.0, 1.0)),
         lens_share=reach_share(intrinsics, points).max(axis=1),
         aside_rad=np.arctan2(np.hypot(centres[:, 0], centres[:, 1]), centres[:, 2]),
+        nearest_m=points[..., 2].min(axis=1),
+        farthest_m=points[..., 2].max(axis=1),
+        image_points=pixels,
+        columns=target.columns,
     )
 
 

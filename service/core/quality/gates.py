@@ -10,6 +10,7 @@ from enum import StrEnum
 from typing import Literal
 
 from service.core.quality.limits import Limits
+from service.core.quality.reasons import Facts, Reason
 
 __all__ = [
     "OTHER_LENS",
@@ -44,7 +45,7 @@ class Measurement:
 
     value: in `unit`, None when it could not be determined. limit: None when the value is only reported.
     margin: distance to the limit in `unit`, positive on the good side; None without value or limit.
-    advice: what to do, or for PASS what it means.
+    advice: what to do, or for PASS what it means, in English. reason, facts: the same for other languages.
     """
 
     gate: str
@@ -56,6 +57,8 @@ class Measurement:
     margin: float | None
     verdict: Verdict
     advice: str
+    reason: Reason
+    facts: Facts
 
 
 def check_limit(
@@ -71,11 +74,14 @@ def check_limit(
     unit: str = "",
     share: float = 1.0,
     worst: Verdict = Verdict.FAIL,
+    reason: Reason | None = None,
+    facts: Facts | None = None,
 ) -> Measurement:
     """Return the measurement of a value against its limit; it must be `comparison` the limit.
 
     good: what PASS means. bad, remedy: what is wrong, and what to do; near the limit there is the remedy
     only. share: MARGINAL from this share of the limit on. worst: the worst verdict this value may lead to.
+    reason: the code of these sentences, by default the measurement's name. facts: what they name.
     """
     verdict = _judge(value, comparison, limit, share)
     if SEVERITY.index(verdict) > SEVERITY.index(worst):
@@ -94,13 +100,19 @@ def check_limit(
         _margin(value, comparison, limit) if known else None,
         verdict,
         advice,
+        reason or Reason(name),
+        facts or {},
     )
 
 
-def report_value(gate: str, name: str, value: float, *, advice: str, unit: str = "") -> Measurement:
+def report_value(
+    gate: str, name: str, value: float, *, advice: str, unit: str = "", facts: Facts | None = None
+) -> Measurement:
     """Return a measurement that has no limit and never fails."""
     known = float(value) if math.isfinite(value) else None
-    return Measurement(gate, name, known, unit, None, "<=", None, Verdict.PASS, advice)
+    return Measurement(
+        gate, name, known, unit, None, "<=", None, Verdict.PASS, advice, Reason(name), facts or {}
+    )
 
 
 def worst_verdict(verdicts: Iterable[Verdict]) -> Verdict:

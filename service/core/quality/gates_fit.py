@@ -12,6 +12,8 @@ import numpy as np
 
 from service.core.quality.evidence import Evidence
 from service.core.quality.gates import OTHER_LENS, Measurement, check_limit, report_value
+from service.core.quality.gates_frame import some_views
+from service.core.quality.reasons import Facts, Reason
 from service.core.quality.residual_causes import Causes, explain_residuals
 from service.core.vision.residuals import outlier_share, view_rms
 
@@ -34,6 +36,7 @@ def measure_fit(evidence: Evidence) -> tuple[Measurement, ...]:
 
 
 def _rms(evidence: Evidence, causes: Causes) -> Measurement:
+    remedy, reason, facts = _remedy(evidence, causes)
     return check_limit(
         GATE,
         "rms_px",
@@ -44,30 +47,36 @@ def _rms(evidence: Evidence, causes: Causes) -> Measurement:
         share=evidence.limits.share("rms_px"),
         good="Board, lens model and corners agree.",
         bad="The corners do not fit the model.",
-        remedy=_remedy(evidence, causes),
+        remedy=remedy,
+        reason=reason,
+        facts=facts,
     )
 
 
-def _remedy(evidence: Evidence, causes: Causes) -> str:
-    """Return the likely cause of large residuals and what to do about it."""
+def _remedy(evidence: Evidence, causes: Causes) -> tuple[str, Reason, Facts]:
+    """Return the likely cause of large residuals and what to do about it, with its code and facts."""
     lens = evidence.result.intrinsics.lens
     if not evidence.result.converged:
-        return f"See the model gate first: the lens model {lens} may not describe this lens."
+        said = f"See the model gate first: the lens model {lens} may not describe this lens."
+        return said, Reason.RMS_NO_OPTIMUM, {"lens": lens}
     if causes.board_share > max(CLEAR_SHARE, causes.lens_share):
         bend = causes.bend_m / evidence.target.square_m
-        return (
+        said = (
             "The residuals repeat with the corners of the board, which is probably not flat "
             f"(bent by about {bend:.0%} of a square). Mount the pattern on a rigid, flat plate."
         )
+        return said, Reason.RMS_BENT_BOARD, {"bend": bend}
     if causes.lens_share > CLEAR_SHARE:
-        return (
+        said = (
             f"The residuals repeat with the distance from the image centre, so the lens model {lens} does "
             f"not describe this lens (a fisheye or a very wide lens?). {OTHER_LENS}"
         )
-    return (
+        return said, Reason.RMS_OTHER_LENS, {"lens": lens}
+    said = (
         "Check that all images are of one camera and unscaled, that the board is the declared one, rigid and "
         "flat, and that nothing moved while the pictures were taken."
     )
+    return said, Reason.RMS, {}
 
 
 def _smallest_rms(evidence: Evidence) -> Measurement:
@@ -97,6 +106,7 @@ def _worst_view(evidence: Evidence) -> Measurement:
         good="No view fits much worse than the others.",
         bad=f"{worst} fits much worse than the other views.",
         remedy=f"Look at the corners of {worst} and take it again.",
+        facts=some_views([worst]),
     )
 
 
@@ -123,4 +133,5 @@ def _bend(evidence: Evidence, causes: Causes) -> Measurement:
         unit="squares",
         advice="Out-of-plane shape of the board that fits best, peak to peak; "
         f"it explains {causes.board_share:.0%} of the squared residuals.",
+        facts={"share": causes.board_share},
     )

@@ -11,6 +11,7 @@ import numpy as np
 from service.core.errors import WrongTarget
 from service.core.quality.evidence import Evidence, Refusal
 from service.core.quality.gates import Measurement, Verdict, check_limit
+from service.core.quality.reasons import Facts
 from service.core.vision.transforms import stack_poses
 
 GATE = "frame"
@@ -37,6 +38,11 @@ def name_some(names: Sequence[str]) -> str:
     return f"{shown} and {more} more" if more > 0 else shown
 
 
+def some_views(names: Sequence[str]) -> Facts:
+    """Return the same as facts."""
+    return {"views": list(names[:NAMES_SHOWN]), "more": max(0, len(names) - NAMES_SHOWN)}
+
+
 def _wrong_target(wrong: Sequence[Refusal]) -> Measurement:
     return check_limit(
         GATE,
@@ -48,6 +54,7 @@ def _wrong_target(wrong: Sequence[Refusal]) -> Measurement:
         good="No image shows another board than the declared one.",
         bad=f"Another board than the declared one is in {name_some([r.name for r in wrong])}.",
         remedy="Use the declared board, or declare the one that is used.",
+        facts=some_views([r.name for r in wrong]),
     )
 
 
@@ -63,6 +70,7 @@ def _refused_images(refused: Sequence[Refusal]) -> Measurement:
         good="Every image could be used.",
         bad=f"Not used: {name_some([r.name for r in refused])}.",
         remedy="Take those images again or leave them out.",
+        facts=some_views([r.name for r in refused]),
     )
 
 
@@ -84,6 +92,7 @@ def _facing(evidence: Evidence) -> tuple[Measurement, Measurement]:
             good="The board faces the camera in every view.",
             bad=f"The solution shows the back of the board in {evidence.names[facing.argmin()]}.",
             remedy="Take that image again; if it is mirrored, switch off mirroring in the camera.",
+            facts=some_views([evidence.names[facing.argmin()]]),
         ),
         check_limit(
             GATE,
@@ -95,6 +104,7 @@ def _facing(evidence: Evidence) -> tuple[Measurement, Measurement]:
             good="The board is in front of the camera in every view.",
             bad=f"The solution puts the board behind the camera in {evidence.names[depth.argmin()]}.",
             remedy="Take that image again.",
+            facts=some_views([evidence.names[depth.argmin()]]),
         ),
     )
 
@@ -111,6 +121,7 @@ def _parity(evidence: Evidence) -> Measurement:
         good="Dark and bright squares are clearly apart in every view.",
         bad=f"In {worst.name} dark and bright squares are hard to tell apart.",
         remedy="Light the board evenly, without reflections, and check that it is the declared one.",
+        facts=some_views([worst.name]),
     )
 
 
@@ -127,4 +138,5 @@ def _contrast(evidence: Evidence) -> Measurement:
         good="The contrast is sufficient in every view.",
         bad=f"Dark and bright squares differ too little in {worst.name}.",
         remedy="Give more light or a longer exposure.",
+        facts=some_views([worst.name]),
     )

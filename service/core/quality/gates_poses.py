@@ -12,7 +12,7 @@ from scipy.optimize import linear_sum_assignment
 from service.core.quality.coverage import covered_share, default_working_zone
 from service.core.quality.evidence import Evidence, Expectation, NamedDetection
 from service.core.quality.gates import Measurement, check_limit, report_value
-from service.core.quality.gates_frame import name_some
+from service.core.quality.gates_frame import NAMES_SHOWN, name_some, some_views
 from service.core.vision.camera import project
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose, stack_poses
@@ -53,7 +53,7 @@ def _prescribed(evidence: Evidence) -> tuple[Measurement, ...]:
     errors = _match_errors(evidence, expectation, expectation.poses)
     limit = evidence.limits.match_share * evidence.image_size[0]
     taken = {pose for pose, (_, error) in errors.items() if error <= limit}
-    missing = [f"pose {pose + 1}" for pose in range(len(expectation.poses)) if pose not in taken]
+    missing = [pose + 1 for pose in range(len(expectation.poses)) if pose not in taken]
     worst = max(errors.values(), key=lambda named: named[1], default=("", float("nan")))
     return (
         check_limit(
@@ -64,8 +64,9 @@ def _prescribed(evidence: Evidence) -> tuple[Measurement, ...]:
             0.0,
             unit="poses",
             good="Every prescribed pose was taken.",
-            bad=f"Not taken: {name_some(missing)}.",
+            bad=f"Not taken: {name_some([f'pose {number}' for number in missing])}.",
             remedy="Take a picture at each of these poses.",
+            facts={"poses": missing[:NAMES_SHOWN], "more": max(0, len(missing) - NAMES_SHOWN)},
         ),
         check_limit(
             GATE,
@@ -78,6 +79,7 @@ def _prescribed(evidence: Evidence) -> tuple[Measurement, ...]:
             good="Every view lies on its prescribed pose.",
             bad=f"{worst[0] or 'No view'} is too far from its prescribed pose.",
             remedy="Take it again, closer to the pose that is shown.",
+            facts=some_views([worst[0]] if worst[0] else []),
         ),
     )
 
@@ -116,6 +118,7 @@ def _separation(evidence: Evidence) -> Measurement:
         good="No view is there twice.",
         bad=f"{first} and {second} show the board in the same place: together they tell no more than one.",
         remedy="Leave one of them out, and move the board between pictures.",
+        facts=some_views([first, second]),
     )
 
 

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from service.core.quality.evidence import Evidence
 from service.core.quality.gates import Measurement, check_limit
+from service.core.quality.gates_frame import some_views
+from service.core.quality.reasons import Facts, Reason
 
 GATE = "sharpness"
 QUADRANTS = ("top left", "top right", "bottom right", "bottom left")
@@ -26,7 +28,9 @@ def _edge_width(evidence: Evidence) -> Measurement:
     # A view whose edges could not be measured is no sharper than the softest one.
     widths = [np.nan_to_num(v.detection.sharpness.edge_width_px, nan=np.inf) for v in evidence.views]
     limit = evidence.limits.edge_width_px
-    blurred, remedy = _who_is_blurred(evidence, np.array(widths) > limit, int(np.argmax(widths)))
+    blurred, remedy, reason, facts = _who_is_blurred(
+        evidence, np.array(widths) > limit, int(np.argmax(widths))
+    )
     return check_limit(
         GATE,
         "edge_width_px",
@@ -38,18 +42,25 @@ def _edge_width(evidence: Evidence) -> Measurement:
         good="Every view is sharp.",
         bad=blurred,
         remedy=remedy,
+        reason=reason,
+        facts=facts,
     )
 
 
-def _who_is_blurred(evidence: Evidence, is_blurred: NDArray[np.bool_], worst: int) -> tuple[str, str]:
+def _who_is_blurred(
+    evidence: Evidence, is_blurred: NDArray[np.bool_], worst: int
+) -> tuple[str, str, Reason, Facts]:
     """Say which views are blurred and what helps: one view is taken again, most of them mean the lens."""
     count, views = int(is_blurred.sum()), len(evidence.views)
     if count > views / 2:
-        return f"{count} of {views} views are blurred.", "Focus the lens, then take the views again."
+        said = (f"{count} of {views} views are blurred.", "Focus the lens, then take the views again.")
+        return *said, Reason.BLURRED_LENS, {"count": count, "of": views}
     names = evidence.views[worst].name + (f" and {count - 1} more" if count > 1 else "")
     return (
         f"{names} {'are' if count > 1 else 'is'} blurred.",
         f"Take {names} again: hold the board still, shorten the exposure, or keep it further away.",
+        Reason.EDGE_WIDTH,
+        {**some_views([evidence.views[worst].name]), "more": max(0, count - 1)},
     )
 
 
@@ -76,4 +87,5 @@ def _quadrant_ratio(evidence: Evidence) -> Measurement | None:
         good="All quadrants are as sharp as the centre.",
         bad=f"The image is softer {QUADRANTS[worst]} than in its centre: the lens is tilted or decentred.",
         remedy="Check how the lens is mounted and focused.",
+        facts={"quadrant": QUADRANTS[worst].replace(" ", "-")},
     )

@@ -9,7 +9,7 @@ vectorised over views. Not here: the solve itself.
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.camera import LENSES, Intrinsics, parameter_names, unproject
+from service.core.vision.camera import LENSES, Intrinsics, focal_of_view, parameter_names, unproject
 from service.core.vision.normal_equations import Estimate
 from service.core.vision.transforms import Array, rotation_matrix
 from service.core.vision.view_stack import ViewStack
@@ -36,17 +36,9 @@ def sweep_starts(lens: str, image_size: tuple[int, int], stack: ViewStack) -> li
     """Return estimates of a few focal lengths without distortion, narrow to wide."""
     starts = []
     for degrees in LENSES[lens].sweep_hfov_deg:
-        vector = _plain_vector(lens, _focal_of(lens, degrees, image_size), image_size)
+        vector = _plain_vector(lens, focal_of_view(lens, image_size[0], degrees), image_size)
         starts.append(Estimate(vector, *planar_poses(stack, _plain_rays(lens, vector, stack))))
     return starts
-
-
-def _focal_of(lens: str, hfov_deg: float, image_size: tuple[int, int]) -> float:
-    """Return the focal length, px, at which a lens without distortion has a horizontal field of view."""
-    half = np.radians(hfov_deg / 2.0)
-    border = np.array([np.sin(half), 0.0, np.cos(half)])
-    model = LENSES[lens]
-    return float(image_size[0] / 2.0 / model.project(border, np.zeros(len(model.coefficients)))[0])
 
 
 def _plain_rays(lens: str, vector: Array, stack: ViewStack) -> Array:

@@ -78,6 +78,24 @@ def parameter_names(lens: str) -> tuple[str, ...]:
     return PINHOLE + LENSES[lens].coefficients
 
 
+def focal_of_view(lens: str, size_px: int, view_deg: float) -> float:
+    """Return the focal length, px, at which a lens without distortion has a field of view across an image.
+
+    Raises IntrinsicsInvalid for an unknown lens and for an angle that such a lens cannot have.
+    """
+    nothing = np.zeros(len(parameter_names(lens)) - len(PINHOLE))
+    model, half = LENSES[lens], np.radians(view_deg) / 2.0
+    border = np.array([np.sin(half), 0.0, np.cos(half)])
+    widest = 359.0 if np.isfinite(model.radius(np.array([0.0, 0.0, -1.0]))) else 179.0
+    if not 0.0 < view_deg < widest:
+        raise IntrinsicsInvalid(
+            f"A field of view of {view_deg:g} degrees is impossible for lens '{lens}'; give one between 0 "
+            f"and {widest:g}, or choose a fisheye lens.",
+            view_deg=view_deg,
+        )
+    return float(0.5 * size_px / model.project(border, nothing)[0])
+
+
 def project_camera_points(intrinsics: Intrinsics, points: Array) -> Array:
     """Return pixels (..., 2) of camera-frame points (..., 3), m; NaN where the lens has no image of them."""
     vector = intrinsics.vector

@@ -98,3 +98,42 @@ def test_an_unknown_set_or_job_is_not_found(small_plant: Plant) -> None:
     problem(small_plant.post(f"/pose-sets/{uuid4()}/publish"), 404, "not-found")
     problem(small_plant.get(f"/jobs/{uuid4()}"), 404, "not-found")
     problem(small_plant.post(f"/jobs/{uuid4()}/cancel"), 404, "not-found")
+
+
+def test_the_papers_procedure_is_there_to_compare_with(small_plant: Plant) -> None:
+    small_plant.publish_sku(with_poses=False)
+    made = small_plant.expect(202, small_plant.post(PATH, {"planner": "paper", "candidates": 100}))
+
+    assert ended(small_plant, made["job"]["id"])["problem"] is None
+    planned = small_plant.get(f"/pose-sets/{made['pose_set']['id']}").json()
+
+    assert (planned["provenance"]["planner"], planned["provenance"]["objective"]) == ("paper-1", "score")
+    assert len(planned["poses"]) == SKU["pose_count"]
+
+
+def test_weights_of_ones_own_are_kept_and_the_curve_tells_how_many_poses_are_enough(
+    small_plant: Plant,
+) -> None:
+    small_plant.publish_sku(with_poses=False)
+    weights = {"parameters": 1.0, "mapping_mean": 0.0, "mapping_worst": 2.0}
+    made = small_plant.expect(
+        202, small_plant.post(PATH, {"weights": weights, "candidates": 200, "draws": 2})
+    )
+
+    assert ended(small_plant, made["job"]["id"])["problem"] is None
+    planned = small_plant.get(f"/pose-sets/{made['pose_set']['id']}").json()
+
+    provenance, prediction = planned["provenance"], planned["prediction"]
+    assert (provenance["objective"], provenance["weights"], provenance["draws"]) == ("weighted", weights, 2)
+    assert len(prediction["pose_sigma_px"]) == SKU["pose_count"]
+    enough = [
+        p["poses"] for p in prediction["curve"] if p["mapping_mean_px"] <= prediction["required_mapping_px"]
+    ]
+    assert prediction["smallest_count"] == min(enough)
+
+
+def test_weights_that_weigh_nothing_and_two_aims_at_once_are_refused(small_plant: Plant) -> None:
+    small_plant.publish_sku(with_poses=False)
+    problem(small_plant.post(PATH, {"weights": {"parameters": 0}}), 422, "validation-failed")
+    both = {"weights": {"parameters": 1}, "objective": "worst"}
+    problem(small_plant.post(PATH, both), 422, "validation-failed")

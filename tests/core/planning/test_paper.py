@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from service.core.errors import PoseSetInfeasible
-from service.core.planning.paper import calibrate_noisy, sample_uniform_poses, score_random_sets
+from service.core.planning.paper import (
+    calibrate_noisy,
+    plan_as_the_paper,
+    sample_uniform_poses,
+    score_random_sets,
+)
+from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import PoseSpace, infeasibilities
 from service.core.vision.camera import project
 from tests.core.planning.cameras import BOARD, LENS1
@@ -44,3 +50,17 @@ def test_a_draw_that_cannot_be_solved_is_none_and_scores_zero() -> None:
     rng = np.random.default_rng(3)
     assert calibrate_noisy(LENS1, BOARD, pixels[:2], 0.1, rng) is None
     assert [one.score for one in score_random_sets(LENS1, BOARD, poses, 2, rng, sets=2)] == [0.0, 0.0]
+
+
+def test_the_papers_plan_is_labelled_as_such_and_reports_what_it_really_promises() -> None:
+    shares: list[float] = []
+    theirs = plan_as_the_paper(
+        LENS1, BOARD, SPACE, 8, 3, candidates=200, sets=12, sigma_px=0.1, progress=shares.append
+    )
+    ours = plan_pose_set(LENS1, BOARD, SPACE, 8, 3, candidates=200)
+    assert (theirs.planner, theirs.objective) == ("paper-1", "score")
+    assert len(theirs.poses) == 8
+    assert shares[-1] == 1.0
+    assert ours.expected_norm_px < theirs.expected_norm_px
+    again = plan_as_the_paper(LENS1, BOARD, SPACE, 8, 3, candidates=200, sets=12)
+    assert again.expected_norm_px == theirs.expected_norm_px

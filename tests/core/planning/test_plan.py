@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 from service.core.errors import IntrinsicsInvalid, PoseSetInfeasible
-from service.core.planning.plan import FAR_SHARE, plan_pose_set
+from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import Poses, PoseSpace, infeasibilities
 from service.core.planning.prediction import predict_accuracy, zone_within
+from service.core.planning.variety import FAR_SHARE
 from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.transforms import stack_poses
@@ -152,3 +153,13 @@ def test_progress_rises_to_one_and_its_exception_ends_the_planning() -> None:
 
     with pytest.raises(Cancelled):
         plan_pose_set(LENS1, BOARD, SPACE, 4, seed=1, candidates=300, progress=cancel)
+
+
+def test_a_lens_that_folds_inside_the_zone_is_refused_with_what_to_do() -> None:
+    folding = Intrinsics.from_parameters(
+        "pinhole5", {"fx": 700.0, "fy": 700.0, "cx": 640.0, "cy": 400.0, "k1": -0.6}, (1280, 800)
+    )
+    with pytest.raises(PoseSetInfeasible, match="working_zone"):
+        plan_pose_set(folding, BOARD, SPACE, 6, seed=1, candidates=200)
+    inner = Region(390.0, 240.0, 890.0, 560.0)
+    assert plan_pose_set(folding, BOARD, SPACE, 6, seed=1, candidates=200, zone=inner).expected_norm_px > 0

@@ -20,7 +20,7 @@ finite = st.floats(-1e6, 1e6)
 
 def check(value: float, comparison: Comparison, limit: float, share: float = 0.8) -> Measurement:
     return check_limit(
-        "fit", "x", value, comparison, limit, share=share, good="Good.", bad="Bad.", remedy="Mend it."
+        "fit", "rms_px", value, comparison, limit, share=share, good="Good.", bad="Bad.", remedy="Mend it."
     )
 
 
@@ -71,14 +71,22 @@ def test_a_value_that_is_not_known_is_null_and_not_a_number_json_lacks() -> None
 
 def test_a_value_may_be_bad_and_yet_cost_a_clean_pass_only() -> None:
     measurement = check_limit(
-        "frame", "x", 3.0, "<=", 0.0, good="g", bad="Bad.", remedy="Mend.", worst=Verdict.MARGINAL
+        "frame",
+        "refused_images",
+        3.0,
+        "<=",
+        0.0,
+        good="g",
+        bad="Bad.",
+        remedy="Mend.",
+        worst=Verdict.MARGINAL,
     )
     assert measurement.verdict is Verdict.MARGINAL
     assert measurement.advice == "Bad. Mend."
 
 
 def test_a_reported_value_has_no_limit_and_passes() -> None:
-    measurement = report_value("score", "x", 1e9, advice="a")
+    measurement = report_value("score", "paper_score", 1e9, advice="a")
     assert (measurement.limit, measurement.margin, measurement.verdict) == (None, None, Verdict.PASS)
 
 

@@ -10,6 +10,7 @@ from service.core.quality.evidence import Expectation, NamedDetection, Refusal
 from service.core.quality.gates import Verdict
 from service.core.quality.gates_poses import nearest_views
 from service.core.quality.limits import Limits
+from service.core.quality.reasons import Reason
 from service.core.quality.verdict import calibrate_and_judge
 from service.core.vision.sharpness import Sharpness
 from tests.core.quality.seen_views import (
@@ -89,6 +90,7 @@ def test_a_bent_board_fails_and_is_called_bent() -> None:
     found = measured(judge(see_poses(heights=heights)), "rms_px")
     assert found.verdict is Verdict.FAIL
     assert "not flat" in found.advice
+    assert (found.reason, list(found.facts)) == (Reason.RMS_BENT_BOARD, ["bend"])
 
 
 def test_a_lens_that_the_model_does_not_describe_is_called_so() -> None:
@@ -103,6 +105,7 @@ def test_a_lens_that_the_model_does_not_describe_is_called_so() -> None:
     found = measured(judge(views), "rms_px")
     assert found.verdict is Verdict.FAIL
     assert "lens model pinhole5" in found.advice
+    assert (found.reason, found.facts) == (Reason.RMS_OTHER_LENS, {"lens": "pinhole5"})
 
 
 def views_all_round() -> list[NamedDetection]:
@@ -142,6 +145,7 @@ def test_a_blurred_view_is_named() -> None:
     found = measured(judge(views), "edge_width_px")
     assert (found.value, found.verdict) == (8.2, Verdict.FAIL)
     assert "05.png" in found.advice
+    assert (found.reason, found.facts) == (Reason.EDGE_WIDTH, {"views": ["05.png"], "more": 0})
 
 
 def test_a_lens_out_of_focus_is_told_from_one_blurred_view() -> None:
@@ -149,6 +153,7 @@ def test_a_lens_out_of_focus_is_told_from_one_blurred_view() -> None:
     found = measured(judge(views), "edge_width_px")
     assert found.verdict is Verdict.FAIL
     assert f"{len(views)} of {len(views)} views are blurred. Focus the lens" in found.advice
+    assert (found.reason, found.facts) == (Reason.BLURRED_LENS, {"count": len(views), "of": len(views)})
 
 
 def test_edges_that_could_not_be_measured_are_not_sharp() -> None:
@@ -164,6 +169,7 @@ def test_a_lens_that_is_soft_in_one_quadrant_is_told_from_a_soft_one() -> None:
     assert found.value == pytest.approx(1.4)
     assert found.verdict is Verdict.FAIL
     assert "bottom right" in found.advice
+    assert found.facts == {"quadrant": "bottom-right"}
 
 
 def test_one_soft_corner_of_one_view_is_no_tilted_lens() -> None:
@@ -225,6 +231,7 @@ def test_a_pose_that_was_not_taken_is_numbered() -> None:
     found = measured(judge(see_poses(POSES[:-1]), EVERY_POSE), "missing_poses")
     assert (found.value, found.verdict) == (1.0, Verdict.FAIL)
     assert f"pose {len(POSES)}" in found.advice
+    assert found.facts == {"poses": [len(POSES)], "more": 0}
 
 
 def test_views_in_any_order_find_their_poses() -> None:

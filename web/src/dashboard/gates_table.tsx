@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import type { Measurement } from "../generated/api";
 import { barEnd, LIMIT_AT, usedShare } from "../drawing/margin";
 import { percent, plain, significant, withUnit } from "../format/numbers";
+import { adviceOf } from "../words/advice";
 import type { Words } from "../words/en";
 import { language, words } from "../words/language";
 import { gateName, measurementName, unitName } from "../words/measurements";
@@ -75,7 +76,8 @@ function Group({ group, say }: { group: GateGroup; say: Words }): JSX.Element {
 }
 
 function Row({ measurement, say }: { measurement: Measurement; say: Words }): JSX.Element {
-  const { name, value, limit, comparison, verdict, advice } = measurement;
+  const { name, value, limit, comparison, verdict } = measurement;
+  const advice = adviceOf(measurement, language.value, say);
   const unit = unitName(measurement.unit, language.value);
   return (
     <tr class={`gate gate-${verdict}`}>
@@ -88,8 +90,8 @@ function Row({ measurement, say }: { measurement: Measurement; say: Words }): JS
       </td>
       <th scope="row">
         {measurementName(name, language.value)}
-        <small class="advice-inline" lang="en">
-          {advice}
+        <small class="advice-inline" lang={advice.lang}>
+          {advice.all}
         </small>
       </th>
       <td class="number">{value === null ? say.not_determined : withUnit(significant(value), unit)}</td>
@@ -99,8 +101,8 @@ function Row({ measurement, say }: { measurement: Measurement; say: Words }): JS
       <td class="bar-column">
         <Bar measurement={measurement} say={say} />
       </td>
-      <td class="advice-column" lang="en">
-        {advice}
+      <td class="advice-column" lang={advice.lang}>
+        {advice.all}
       </td>
     </tr>
   );

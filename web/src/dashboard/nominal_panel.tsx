@@ -30,7 +30,7 @@ export function NominalPanel({ document }: { document: SkuDocument }): JSX.Eleme
           </tr>
         </thead>
         <tbody>
-          {Object.entries(document.nominal).map(([name, value]) => (
+          {Object.entries(document.nominal ?? {}).map(([name, value]) => (
             <tr key={name}>
               <th scope="row">
                 <var>{name}</var>

@@ -42,7 +42,7 @@ export function PredictionPanel({ set, document }: { set: PoseSet; document: Sku
                   <th scope="row">
                     <var>{name}</var>
                   </th>
-                  <td class="number muted">{plain(document.nominal[name] ?? 0)}</td>
+                  <td class="number muted">{plain(document.nominal?.[name] ?? 0)}</td>
                   <td class="number estimate">{sd === 0 ? say.fixed : `± ${significant(sd)}`}</td>
                   <td class="muted">{PIXEL_PARAMETERS.has(name) ? "px" : ""}</td>
                 </tr>

@@ -15,6 +15,8 @@ function measurement(
     comparison: "<=",
     margin: 0,
     advice: "",
+    reason: null,
+    facts: null,
   } as const;
   return { ...rest, name, verdict, ...more };
 }

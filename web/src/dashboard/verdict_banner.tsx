@@ -4,6 +4,7 @@ import type { Measurement, RunDetail } from "../generated/api";
 import { fixed, withUnit } from "../format/numbers";
 import { exactly } from "../format/times";
 import { standingOf, VerdictMark } from "../shell/verdict_mark";
+import { adviceOf } from "../words/advice";
 import type { Words } from "../words/en";
 import { language, words } from "../words/language";
 import { gateName, measurementName, purposeName } from "../words/measurements";
@@ -77,6 +78,7 @@ function Why({ run, say }: { run: RunDetail; say: Words }): JSX.Element {
 }
 
 function Reason({ gate, say }: { gate: Measurement; say: Words }): JSX.Element {
+  const advice = adviceOf(gate, language.value, say);
   return (
     <li>
       <VerdictMark standing={gate.verdict} size={20} />
@@ -84,7 +86,7 @@ function Reason({ gate, say }: { gate: Measurement; say: Words }): JSX.Element {
         <strong>
           {gateName(gate.gate, say)}: {measurementName(gate.name, language.value)}.
         </strong>{" "}
-        <span lang="en">{gate.advice}</span>
+        <span lang={advice.lang}>{advice.all}</span>
       </span>
     </li>
   );

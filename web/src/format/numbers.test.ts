@@ -40,7 +40,12 @@ describe("numbers", () => {
   );
 
   it("of limits are shown as they were written", () => {
-    expect([plain(0.001, "en"), plain(1.02, "de"), plain(40, "en")]).toEqual(["0.001", "1,02", "40"]);
+    expect([plain(1e-9, "en"), plain(0.001, "en"), plain(1.02, "de"), plain(40, "en")]).toEqual([
+      "1.0·10⁻⁹",
+      "0.001",
+      "1,02",
+      "40",
+    ]);
   });
 
   it("end where their uncertainty begins", () => {

@@ -35,6 +35,7 @@ function raised(exponent: number): string {
 
 /** A number as somebody wrote it, such as a limit: no digit is added. */
 export function plain(value: number, locale: string = language.value): string {
+  if (value !== 0 && Math.abs(value) < 1e-6) return significant(value, locale);
   return value.toLocaleString(locale, { maximumFractionDigits: 6, useGrouping: false }).replace("-", "−");
 }
 

@@ -112,6 +112,10 @@ export interface GateLine {
   margin: number | null;
   verdict: Verdict;
   advice: string;
+  /** Code of what `advice` says, for other languages. */
+  reason: string | null;
+  /** What `advice` names besides value and limit. */
+  facts: Record<string, unknown> | null;
 }
 
 /** Where the board of the pose asked for would appear. */
@@ -151,8 +155,10 @@ export interface OpenRun {
   serial: string;
   /** Null: only resume a run that is open already. */
   sku?: string | null;
-  /** A virtual station's runs are `simulated`. */
-  purpose?: Purpose;
+  /**
+   * Null: `retest` where the serial has a counted result for this SKU, else `production`. A virtual station's runs are `simulated`.
+   */
+  purpose?: Purpose | null;
 }
 
 /** How a board stands to the camera, deg, and how far its centre is. */

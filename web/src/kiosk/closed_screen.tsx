@@ -4,7 +4,7 @@ import { forgetKey } from "../api/key";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
-import { KEY_REFUSED, NO_STATION, ROLE_REFUSED, STATION_TAKEN } from "./socket";
+import { KEY_REFUSED, NO_STATION, OTHER_VERSION, ROLE_REFUSED, STATION_TAKEN } from "./socket";
 import { LanguageAndLight } from "./switches";
 
 export function ClosedScreen({ kiosk, code }: { kiosk: Kiosk; code: number }): JSX.Element {
@@ -20,9 +20,15 @@ export function ClosedScreen({ kiosk, code }: { kiosk: Kiosk; code: number }): J
         <h1>{title}</h1>
         <p class="start-detail">{detail}</p>
         <div class="ask-answers">
-          <button type="button" class="act act-primary" onClick={() => kiosk.retry()}>
-            {say.closed_retry}
-          </button>
+          {code === OTHER_VERSION ? (
+            <button type="button" class="act act-primary" onClick={() => window.location.reload()}>
+              {say.closed_reload}
+            </button>
+          ) : (
+            <button type="button" class="act act-primary" onClick={() => kiosk.retry()}>
+              {say.closed_retry}
+            </button>
+          )}
           {asksForKey && (
             <button type="button" class="act" onClick={forgetKey}>
               {say.closed_other_key}
@@ -45,6 +51,8 @@ function reasonOf(code: number, say: Words): [string, string] {
       return [say.closed_unknown, say.closed_unknown_detail];
     case ROLE_REFUSED:
       return [say.closed_role, say.closed_role_detail];
+    case OTHER_VERSION:
+      return [say.closed_version, say.closed_version_detail];
     case KEY_REFUSED:
       return [say.closed_key, say.closed_key_detail];
     default:

@@ -3,7 +3,7 @@ import { type JSX } from "preact";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
-import { isFinishing, type KioskState } from "./kiosk_state";
+import { isFinishing, type KioskState, type Told } from "./kiosk_state";
 import { Marked } from "./marked";
 import { hintOnDisplay, type HintCode } from "./mirror";
 import { Pictogram } from "./pictogram";
@@ -73,7 +73,7 @@ function Note({ text, isBusy = false }: { text: string; isBusy?: boolean }): JSX
 }
 
 interface TroubleProps {
-  told: { code: string; title: string; detail: string };
+  told: Told;
   say: Words;
   isRefusal?: boolean;
   onRead?: () => void;

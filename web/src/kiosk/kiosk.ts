@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { ClientMessage, Run, ServerMessage, State } from "../generated/protocol";
 import { Camera } from "./camera";
 import { unpack } from "./framed";
-import { FIRST_STATE, nextState, screenOf, type KioskEvent } from "./kiosk_state";
+import { FIRST_STATE, isLive, nextState, screenOf, type KioskEvent } from "./kiosk_state";
 import { isMirrored, rememberMirrored } from "./mirror";
 import { MOST_UNDERWAY, NOTHING_SHOWN, Underway, type Picture, type Shown } from "./picture_feed";
 import { GuidanceSocket, socketAddress } from "./socket";
@@ -157,6 +157,7 @@ export class Kiosk {
   private happen(event: KioskEvent): void {
     this.state.value = nextState(this.state.value, event);
     if (screenOf(this.state.value) !== "guide") this.question.value = null;
+    if (!isLive(this.state.value)) this.dropGuidance();
   }
 
   private hear(message: ServerMessage): void {
@@ -206,11 +207,14 @@ export class Kiosk {
 
   private lose(code: number, isFinal: boolean): void {
     this.happen({ kind: "lost", code, isFinal });
-    // The last picture stays, without guidance: nobody says any more whether it is right.
-    this.shown.value = { ...this.shown.value, live: null };
     this.underway.forget();
     this.camera.send(null, 0);
     this.decoding = Promise.resolve();
+  }
+
+  /** The last picture stays, without guidance: nobody says any more whether it is right. */
+  private dropGuidance(): void {
+    if (this.shown.value.live !== null) this.shown.value = { ...this.shown.value, live: null };
   }
 
   private useCamera(run: Run): void {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { ServerMessage } from "../generated/protocol";
-import { FIRST_STATE, isFinishing, nextState, screenOf, type KioskState } from "./kiosk_state";
+import { FIRST_STATE, isFinishing, isLive, nextState, screenOf, type KioskState } from "./kiosk_state";
 import { accepted, live, problem, run, verdict, welcome } from "./messages.samples";
 
 function after(...messages: ServerMessage[]): KioskState {
@@ -105,6 +105,14 @@ describe("a run", () => {
 describe("a problem", () => {
   it("of the picture is over with the next picture", () => {
     expect(after(...RUNNING, problem({ code: "source-stalled" }), live({})).problem).toBeNull();
+  });
+
+  it("of the picture leaves no guidance from before it", () => {
+    const told = [...RUNNING, live({}), problem({ code: "source-stalled" })];
+
+    expect(after(...told).live).toBeNull();
+    expect(isLive(after(...told))).toBe(false);
+    expect(isLive(after(...told, live({})))).toBe(true);
   });
 
   it("of another kind stays while frames come, and goes with the next capture", () => {

@@ -16,7 +16,7 @@ export type Connection =
   /** Tried again by itself unless `isFinal`. */
   | { kind: "lost"; code: number; isFinal: boolean };
 
-export type Told = Pick<ProblemTold, "code" | "title" | "detail">;
+export type Told = Pick<ProblemTold, "code" | "title" | "detail"> & Partial<Pick<ProblemTold, "facts">>;
 
 export interface KioskState {
   connection: Connection;
@@ -62,7 +62,7 @@ export function nextState(state: KioskState, event: KioskEvent): KioskState {
       return { ...state, connection: { kind: "lost", code, isFinal }, live: null };
     }
     case "problem":
-      return { ...state, problem: event.problem };
+      return troubled(state, event.problem);
     case "read":
       return { ...state, problem: null };
     case "refusal-seen":
@@ -89,11 +89,24 @@ function heard(state: KioskState, message: ServerMessage): KioskState {
     case "run_closed":
       return { ...state, run: null, live: null, verdict: null, problem: null };
     case "problem":
-      return { ...state, problem: { code: message.code, title: message.title, detail: message.detail } };
+      return troubled(state, toldBy(message));
     default:
       // `want_full_frame` is for the camera; a newer service may say what this page does not know.
       return state;
   }
+}
+
+function troubled(state: KioskState, problem: Told): KioskState {
+  // What an old picture showed guides nobody.
+  return { ...state, problem, live: isOfThePicture(problem) ? null : state.live };
+}
+
+function isOfThePicture(problem: Told): boolean {
+  return MENDED_BY_A_PICTURE.test(problem.code);
+}
+
+function toldBy({ code, title, detail, facts }: ProblemTold): Told {
+  return { code, title, detail, facts };
 }
 
 function welcomed(state: KioskState, welcome: Welcome): KioskState {
@@ -119,7 +132,7 @@ function judged(state: KioskState, live: State): KioskState {
   // A picture that was still being decoded when the socket was lost guides nobody.
   const isHeard = state.connection.kind === "open" && state.verdict === null;
   if (!isHeard || live.run_id !== state.run?.run_id) return state;
-  const isMended = state.problem !== null && MENDED_BY_A_PICTURE.test(state.problem.code);
+  const isMended = state.problem !== null && isOfThePicture(state.problem);
   const run = { ...state.run, pose_index: live.pose_index, automatic: live.automatic };
   const isKnown = run.pose_index === state.run.pose_index && run.automatic === state.run.automatic;
   return { ...state, run: isKnown ? state.run : run, live, problem: isMended ? null : state.problem };
@@ -149,6 +162,11 @@ export function screenOf(state: KioskState): Screen {
 
 export function isOnline(state: KioskState): boolean {
   return state.connection.kind === "open";
+}
+
+/** Whether the picture that is shown is one of now. */
+export function isLive(state: KioskState): boolean {
+  return isOnline(state) && (state.problem === null || !isOfThePicture(state.problem));
 }
 
 /** All poses are captured and the service is computing. */

@@ -6,6 +6,7 @@ import "../look/kiosk.css";
 import "../look/kiosk_guide.css";
 import "../look/kiosk_pictograms.css";
 import "../look/kiosk_verdict.css";
+import "../look/kiosk_large.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
 import { showFirstTheme } from "../look/theme";

@@ -54,6 +54,13 @@ describe("a problem", () => {
     expect(said.isTranslated).toBe(true);
   });
 
+  it("of an open run names the camera type to choose", () => {
+    const told = { code: "other-sku-open", title: "Title", detail: "Detail", facts: { sku: "front" } };
+
+    expect(problemText(told, de).detail).toContain("front wählen");
+    expect(problemText(told, en).detail).toContain("Choose front");
+  });
+
   it("that is not known stays as the service said it", () => {
     const told = { code: "brand-new", title: "Title", detail: "What to do." };
 

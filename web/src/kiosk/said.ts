@@ -13,7 +13,11 @@ export interface Said {
   isTranslated: boolean;
 }
 
-export function problemText({ code, title, detail }: Told, say: Words): Said {
+export function problemText({ code, title, detail, facts }: Told, say: Words): Said {
+  if (code === "other-sku-open") {
+    const sku = typeof facts?.["sku"] === "string" ? facts["sku"] : "";
+    return { title: say.told_other_sku, detail: say.told_other_sku_detail(sku), isTranslated: true };
+  }
   if (code === "run-open-here") {
     return { title: say.told_run_open, detail: say.told_run_open_detail(detail), isTranslated: true };
   }

@@ -6,6 +6,7 @@ import { words } from "../words/language";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
 import { isFinishing, isOnline } from "./kiosk_state";
+import { PurposeTag } from "./purpose_tag";
 import { PoseTiles } from "./pose_tiles";
 import { Switches } from "./switches";
 
@@ -21,7 +22,7 @@ export function SideColumn({ kiosk }: { kiosk: Kiosk }): JSX.Element | null {
       <header class="whose">
         <span class="whose-serial">{run.serial}</span>
         <span class="whose-sku">
-          {run.sku} · {kiosk.state.value.welcome?.name ?? kiosk.station}
+          {run.sku} · {kiosk.state.value.welcome?.name ?? kiosk.station} <PurposeTag purpose={run.purpose} />
         </span>
         <span class="count" aria-label={say.guide_of(run.captured.length, run.poses.length)}>
           <b>{run.captured.length}</b>/{run.poses.length}

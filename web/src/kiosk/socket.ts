@@ -9,6 +9,7 @@ export interface Listener {
   closed: (code: number, again_ms: number | null) => void;
 }
 
+export const OTHER_VERSION = 4400;
 export const KEY_REFUSED = 4401;
 export const ROLE_REFUSED = 4403;
 export const NO_STATION = 4404;

@@ -5,7 +5,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Size } from "../drawing/viewport";
 import { words } from "../words/language";
 import type { Kiosk } from "./kiosk";
-import { isOnline } from "./kiosk_state";
+import { isLive } from "./kiosk_state";
 import { drawStage } from "./stage_drawing";
 import { sceneOf } from "./stage_scene";
 
@@ -33,7 +33,7 @@ export function Stage({ kiosk }: { kiosk: Kiosk }): JSX.Element {
   }, [kiosk]);
 
   return (
-    <div class={`stage ${isOnline(kiosk.state.value) ? "" : "stage-lost"}`}>
+    <div class={`stage ${isLive(kiosk.state.value) ? "" : "stage-lost"}`}>
       <canvas ref={canvas} role="img" aria-label={words.value.guide_picture} />
       {count > 0 && <div key={count} class="stage-flash" aria-hidden="true" />}
     </div>

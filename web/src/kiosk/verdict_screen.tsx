@@ -5,17 +5,21 @@ import { significant, plain, withUnit } from "../format/numbers";
 import type { GateLine, RunVerdict } from "../generated/protocol";
 import { VerdictMark } from "../shell/verdict_mark";
 import { language, words } from "../words/language";
+import { adviceOf } from "../words/advice";
 import { gateName, measurementName, unitName } from "../words/measurements";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
+import { PurposeTag } from "./purpose_tag";
 import { remedyOf } from "./said";
 
-const REASONS_SHOWN = 3;
+/** As many as fit under the verdict on a small screen; the result has all of them. */
+const REASONS_SHOWN = 2;
 /** A foot that still stands on the switch must not wipe the verdict away. */
 const READ_MS = 1500;
 
 export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVerdict }): JSX.Element {
   const say = words.value;
+  const { run } = kiosk.state.value;
   const standing = verdict.verdict;
   const toDo = {
     PASS: say.verdict_do_PASS,
@@ -23,14 +27,19 @@ export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVe
     FAIL: say.verdict_do_FAIL,
   }[standing];
   const word = { PASS: say.verdict_PASS, MARGINAL: say.verdict_MARGINAL, FAIL: say.verdict_FAIL }[standing];
-  const open = verdict.gates.filter((gate) => gate.verdict !== "PASS");
+  const open = firstOfEachGate(verdict.gates.filter((gate) => gate.verdict !== "PASS"));
   return (
-    <main class={`verdict verdict-${standing}`} data-verdict={standing}>
+    <main
+      class={`verdict verdict-${standing} ${open.length > 0 ? "verdict-reasoned" : ""}`}
+      data-verdict={standing}
+    >
       <div class="verdict-head">
         <VerdictMark standing={standing} size={240} />
         <h1 class="verdict-word">{word}</h1>
       </div>
-      <p class="verdict-serial">{verdict.serial}</p>
+      <p class="verdict-serial">
+        {verdict.serial} {run !== null && <PurposeTag purpose={run.purpose} />}
+      </p>
       <p class="verdict-do" role="alert">
         {toDo}
       </p>
@@ -38,6 +47,11 @@ export function VerdictScreen({ kiosk, verdict }: { kiosk: Kiosk; verdict: RunVe
       <NextVehicle kiosk={kiosk} say={say} />
     </main>
   );
+}
+
+/** What one gate has to say twice has the same remedy; the service puts the worst first. */
+function firstOfEachGate(gates: readonly GateLine[]): GateLine[] {
+  return gates.filter((gate, i) => gates.findIndex((other) => other.gate === gate.gate) === i);
 }
 
 function Reasons({ gates, say }: { gates: readonly GateLine[]; say: Words }): JSX.Element {
@@ -59,13 +73,17 @@ function Reason({ gate, say }: { gate: GateLine; say: Words }): JSX.Element {
   const unit = unitName(gate.unit, language.value);
   const measured = gate.value === null ? say.not_determined : withUnit(significant(gate.value), unit);
   const limit = gate.limit === null ? "" : ` (${sign(gate.comparison)} ${withUnit(plain(gate.limit), unit)})`;
+  const advice = adviceOf(gate, language.value, say);
+  const remedy = remedyOf(gate.gate, say);
   return (
     <li>
       <strong>
         {gateName(gate.gate, say)}: {measurementName(gate.name, language.value)} {measured}
         {limit}
       </strong>
-      <span class="why-do">{remedyOf(gate.gate, say) ?? gate.advice}</span>
+      <span class="why-do" lang={remedy === null ? advice.lang : language.value}>
+        {remedy === null ? advice.all : `${advice.wrong} ${remedy}`.trim()}
+      </span>
     </li>
   );
 }

@@ -33,7 +33,7 @@ export const deKiosk: KioskWords = {
   hint_turn_right_back: "Rechte Seite *nach hinten* drehen",
   hint_rotate_clockwise: "*Im* Uhrzeigersinn drehen",
   hint_rotate_counterclockwise: "*Gegen* den Uhrzeigersinn drehen",
-  hint_turn_upside_down: "Target *auf den Kopf* stellen",
+  hint_turn_upside_down: "Target *um 180° drehen*",
   hint_hold_still: "*Still* halten",
   hint_hold: "So *halten*",
   hint_show_board: "Der Kamera das *Target* zeigen",
@@ -114,6 +114,10 @@ export const deKiosk: KioskWords = {
   closed_role_detail: "Einen Schlüssel mit der Rolle eines Bedieners verwenden.",
   closed_key: "Der Dienst nimmt den Schlüssel nicht an",
   closed_key_detail: "Einen anderen Schlüssel eingeben oder den Ingenieur danach fragen.",
+  closed_version: "Diese Seite passt nicht zum Dienst",
+  closed_version_detail:
+    "Der Dienst wurde erneuert. Die Seite neu laden; jede angenommene Aufnahme ist gespeichert.",
+  closed_reload: "Neu laden",
   closed_lost: "Kein Server",
   closed_lost_detail: "Diese Seite versucht es von selbst weiter. Dauert es lange, die Werks-IT rufen.",
   closed_retry: "Noch einmal versuchen",
@@ -162,4 +166,57 @@ export const deKiosk: KioskWords = {
   told_disk_full_do: "Nichts Gespeichertes ist verloren. Die Werks-IT rufen, dann weitermachen.",
   told_database_busy: "Der Server ist beschäftigt",
   told_database_busy_do: "Nichts Gespeichertes ist verloren. Noch einmal versuchen.",
+  told_database_unreachable: "Die Datenbank des Servers ist weg",
+  told_database_unreachable_do:
+    "Nichts Gespeichertes ist verloren. Noch einmal versuchen; dauert es lange, die Werks-IT rufen.",
+  told_blob_store_unavailable: "Der Bildspeicher des Servers ist weg",
+  told_blob_store_unavailable_do:
+    "Nichts Gespeichertes ist verloren. Noch einmal versuchen; dauert es lange, die Werks-IT rufen.",
+  told_blob_missing: "Ein gespeichertes Bild fehlt",
+  told_blob_missing_do: "Die Werks-IT rufen; der Lauf kann abgebrochen und neu begonnen werden.",
+  told_blob_damaged: "Ein gespeichertes Bild ist beschädigt",
+  told_blob_damaged_do: "Die Werks-IT rufen; der Lauf kann abgebrochen und neu begonnen werden.",
+  told_unavailable: "Das geht im Augenblick nicht",
+  told_unavailable_do:
+    "Nichts Gespeichertes ist verloren. Noch einmal versuchen; dauert es lange, die Werks-IT rufen.",
+  told_internal_error: "Der Server hat einen Fehler gemacht",
+  told_internal_error_do:
+    "Nichts Gespeichertes ist verloren. Noch einmal versuchen; geschieht es wieder, die Werks-IT rufen.",
+  told_other_sku: "Dieses Fahrzeug ist für einen anderen Kameratyp offen",
+  told_other_sku_detail: (sku) =>
+    `${sku} wählen und noch einmal scannen; oder den offenen Lauf erst abbrechen lassen.`,
+  told_state_forbids: "Das geht jetzt nicht",
+  told_state_forbids_do: "Nachsehen, was hier offen ist: beenden oder abbrechen, dann noch einmal versuchen.",
+  told_not_found: "Das kennt der Server nicht",
+  told_not_found_do:
+    "Den Kameratyp wählen und noch einmal scannen. Geschieht es wieder, den Ingenieur rufen.",
+  told_revision_not_published: "Dieser Kameratyp ist nicht bereit",
+  told_revision_not_published_do: "Ihn vom Ingenieur freigeben lassen oder einen anderen wählen.",
+  told_pose_set_not_published: "Dieser Kameratyp hat noch keine Posen",
+  told_pose_set_not_published_do:
+    "Seine Posen vom Ingenieur freigeben lassen oder einen anderen Kameratyp wählen.",
+  told_run_aborted: "Dieser Lauf wurde anderswo abgebrochen",
+  told_run_aborted_do: "Seine Aufnahmen bleiben gespeichert. Das Fahrzeug für einen neuen Lauf scannen.",
+  told_run_already_finished: "Dieser Lauf wurde anderswo beendet",
+  told_run_already_finished_do: "Sein Ergebnis ist gespeichert. Das nächste Fahrzeug scannen.",
+  told_too_few_views: "Zu wenige Bilder sind brauchbar",
+  told_too_few_views_do:
+    "Jede Aufnahme ist gespeichert. Posen noch einmal aufnehmen oder den Lauf abbrechen.",
+  told_degenerate_views: "Die Bilder bestimmen die Kamera nicht",
+  told_degenerate_views_do:
+    "Jede Aufnahme ist gespeichert. Posen noch einmal aufnehmen oder den Lauf abbrechen.",
+  told_pose_taken: "Diese Pose hat schon ihr Bild",
+  told_pose_taken_do: "Mit der Pose weitermachen, die gezeigt wird.",
+  told_duplicate_image: "Genau dasselbe Bild kam zweimal",
+  told_duplicate_image_do:
+    "Das Bild der Kamera steht: ihr Kabel prüfen, dann das Target noch einmal dort halten.",
+  told_frame_forgotten: "Das Bild ist zu alt",
+  told_frame_forgotten_do: "Das Target noch einmal an seinem Platz halten.",
+  told_validation_failed: "Der Server versteht diese Seite nicht",
+  told_validation_failed_do: "Die Seite neu laden. Jede angenommene Aufnahme ist gespeichert.",
+  told_bad_request: "Der Server versteht diese Seite nicht",
+  told_bad_request_do: "Die Seite neu laden. Jede angenommene Aufnahme ist gespeichert.",
+  told_too_large: "Die Bilder der Kamera sind zu groß",
+  told_too_large_do:
+    "Die Bildgröße der Kamera vom Ingenieur einstellen lassen. Jede angenommene Aufnahme ist gespeichert.",
 };

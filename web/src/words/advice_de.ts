@@ -1,0 +1,177 @@
+// What each reason of a gate says, in German. The compiler sees to it that it has the codes of the English ones.
+import type { About, Advice } from "./advice";
+import type { adviceEn } from "./advice_en";
+
+const QUADRANTS: Readonly<Record<string, string>> = {
+  "top-left": "oben links",
+  "top-right": "oben rechts",
+  "bottom-right": "unten rechts",
+  "bottom-left": "unten links",
+};
+const UNDETERMINED =
+  "Die Ansichten bestimmen diese Kamera nicht, oder das Linsenmodell passt nicht zu ihr: andere Ansichten mit gekipptem Target aufnehmen, Koeffizienten festhalten, die diese Linse nicht braucht, oder ein anderes Linsenmodell wählen.";
+const MORE_TILT =
+  "Ansichten hinzufügen, in denen das Target zu beiden Seiten gekippt und nahe an der Kamera ist";
+
+export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
+  wrong_target: {
+    good: "Kein Bild zeigt ein anderes Target als das angegebene.",
+    bad: ({ views }: About) => `Ein anderes Target als das angegebene zeigt: ${views}.`,
+    remedy: "Das angegebene Target verwenden oder das verwendete angeben.",
+  },
+  refused_images: {
+    good: "Jedes Bild war brauchbar.",
+    bad: ({ views }: About) => `Nicht verwendet: ${views}.`,
+    remedy: "Diese Bilder noch einmal aufnehmen oder weglassen.",
+  },
+  facing: {
+    good: "Das Target ist in jeder Ansicht der Kamera zugewandt.",
+    bad: ({ views }: About) => `Die Lösung zeigt die Rückseite des Targets in: ${views}.`,
+    remedy: "Dieses Bild noch einmal aufnehmen; ist es gespiegelt, die Spiegelung in der Kamera abschalten.",
+  },
+  nearest_corner: {
+    good: "Das Target ist in jeder Ansicht vor der Kamera.",
+    bad: ({ views }: About) => `Die Lösung setzt das Target hinter die Kamera in: ${views}.`,
+    remedy: "Dieses Bild noch einmal aufnehmen.",
+  },
+  parity_separation: {
+    good: "Dunkle und helle Felder sind in jeder Ansicht klar getrennt.",
+    bad: ({ views }: About) => `Dunkle und helle Felder sind kaum zu unterscheiden in: ${views}.`,
+    remedy: "Das Target gleichmäßig und ohne Spiegelungen beleuchten und prüfen, ob es das angegebene ist.",
+  },
+  contrast: {
+    good: "Der Kontrast reicht in jeder Ansicht.",
+    bad: ({ views }: About) => `Dunkle und helle Felder unterscheiden sich zu wenig in: ${views}.`,
+    remedy: "Mehr Licht geben oder länger belichten.",
+  },
+  edge_width_px: {
+    good: "Jede Ansicht ist scharf.",
+    bad: ({ views }: About) => `Unscharf: ${views}.`,
+    remedy: ({ views }: About) =>
+      `Noch einmal aufnehmen: ${views}. Das Target still halten, kürzer belichten oder es weiter weg halten.`,
+  },
+  blurred_lens: {
+    good: "Jede Ansicht ist scharf.",
+    bad: ({ fact }: About) => `${fact("count")} von ${fact("of")} Ansichten sind unscharf.`,
+    remedy: "Die Linse scharf stellen, dann die Ansichten noch einmal aufnehmen.",
+  },
+  quadrant_ratio: {
+    good: "Alle Quadranten sind so scharf wie die Mitte.",
+    bad: ({ fact }: About) =>
+      `Das Bild ist ${QUADRANTS[fact("quadrant")] ?? fact("quadrant")} unschärfer als in der Mitte: die Linse ist verkippt oder dezentriert.`,
+    remedy: "Prüfen, wie die Linse sitzt und scharf gestellt ist.",
+  },
+  missing_poses: {
+    good: "Jede vorgeschriebene Pose wurde aufgenommen.",
+    bad: ({ poses }: About) => `Nicht aufgenommen: ${poses}.`,
+    remedy: "An jeder dieser Posen ein Bild aufnehmen.",
+  },
+  match_px: {
+    good: "Jede Ansicht liegt auf ihrer Sollpose.",
+    bad: ({ views }: About) =>
+      views === "" ? "Keine Ansicht liegt auf ihrer Sollpose." : `Zu weit von der Sollpose: ${views}.`,
+    remedy: "Noch einmal aufnehmen, näher an der gezeigten Pose.",
+  },
+  view_separation_px: {
+    good: "Keine Ansicht ist doppelt.",
+    bad: ({ views }: About) =>
+      `Diese zeigen das Target am selben Platz und sagen nicht mehr als eine: ${views}.`,
+    remedy: "Eine davon weglassen und das Target zwischen den Bildern bewegen.",
+  },
+  image_coverage: {
+    good: "Der Teil des Bildes, in dem Ecken gesehen wurden; nur dort gilt die Kalibrierung.",
+  },
+  coverage: {
+    good: "Die Ansichten decken die Arbeitszone ab.",
+    bad: "Teile der Arbeitszone wurden nie gesehen.",
+    remedy: "Ansichten mit dem Target zum Bildrand hin hinzufügen.",
+  },
+  rms_px: {
+    good: "Target, Linsenmodell und Ecken passen zusammen.",
+    bad: "Die Ecken passen nicht zum Modell.",
+    remedy:
+      "Prüfen, ob alle Bilder von einer Kamera und unskaliert sind, ob das Target das angegebene, steif und eben ist und ob sich bei den Aufnahmen nichts bewegt hat.",
+  },
+  rms_no_optimum: {
+    good: "Target, Linsenmodell und Ecken passen zusammen.",
+    bad: "Die Ecken passen nicht zum Modell.",
+    remedy: ({ fact }: About) =>
+      `Zuerst die Prüfung des Modells ansehen: das Linsenmodell ${fact("lens")} beschreibt diese Linse vielleicht nicht.`,
+  },
+  rms_bent_board: {
+    good: "Target, Linsenmodell und Ecken passen zusammen.",
+    bad: "Die Ecken passen nicht zum Modell.",
+    remedy: ({ share }: About) =>
+      `Die Residuen wiederholen sich mit den Ecken des Targets, das wohl nicht eben ist (gebogen um etwa ${share("bend")} eines Feldes). Das Muster auf eine steife, ebene Platte aufziehen.`,
+  },
+  rms_other_lens: {
+    good: "Target, Linsenmodell und Ecken passen zusammen.",
+    bad: "Die Ecken passen nicht zum Modell.",
+    remedy: ({ fact }: About) =>
+      `Die Residuen wiederholen sich mit dem Abstand von der Bildmitte; das Linsenmodell ${fact("lens")} beschreibt diese Linse also nicht (ein Fischauge oder eine sehr weite Linse?). Ein anderes Linsenmodell wählen: rational8 für eine weite Linse, kannala_brandt4 für ein Fischauge.`,
+  },
+  smallest_rms_px: {
+    good: "Die Residuen sind so groß, wie echte Ecken sie machen.",
+    bad: "Die Ecken passen besser, als Ecken echter Bilder es können: sie wurden berechnet oder kopiert.",
+    remedy: "Bilder der Kamera verwenden.",
+  },
+  worst_view_ratio: {
+    good: "Keine Ansicht passt viel schlechter als die anderen.",
+    bad: ({ views }: About) => `Passt viel schlechter als die anderen Ansichten: ${views}.`,
+    remedy: ({ views }: About) => `Die Ecken von ${views} ansehen und noch einmal aufnehmen.`,
+  },
+  outlier_share: {
+    good: "Kaum eine Ecke liegt daneben.",
+    bad: "Zu viele Ecken liegen mehr als vier Sigma daneben.",
+    remedy: "Nach Spiegelungen, Schmutz oder etwas vor dem Target suchen.",
+  },
+  board_bend: {
+    good: ({ share }: About) =>
+      `Form des Targets aus seiner Ebene heraus, die am besten passt, von Spitze zu Spitze; sie erklärt ${share("share")} der quadrierten Residuen.`,
+  },
+  focal_sd_share: {
+    good: "Die Brennweite ist gut bestimmt.",
+    bad: "Die Brennweite ist zu unsicher.",
+    remedy: `${MORE_TILT}.`,
+  },
+  centre_sd_px: {
+    good: "Der Bildhauptpunkt ist gut bestimmt.",
+    bad: "Der Bildhauptpunkt ist zu unsicher.",
+    remedy: `${MORE_TILT}, und solche mit um etwa 90 Grad gedrehtem Target.`,
+  },
+  zone_mapping_px: {
+    good: "Der erwartete Abbildungsfehler in der Arbeitszone ist klein.",
+    bad: "Punkte der Arbeitszone würden zu ungenau abgebildet.",
+    remedy: "Ansichten hinzufügen, vor allem dort, wo die Arbeitszone kaum abgedeckt ist.",
+  },
+  valid_mapping_px: {
+    good: "Der erwartete Abbildungsfehler ist im ganzen gültigen Bereich klein.",
+    bad: "Am Rand des gültigen Bereichs ist die Abbildung zu unsicher.",
+    remedy: "Ansichten mit dem Target in den Bildecken hinzufügen.",
+  },
+  converged: {
+    good: "Der Löser hat bewiesen, dass er das Optimum erreicht hat.",
+    bad: "Der Löser erreichte nicht von jedem Start dasselbe Optimum.",
+    remedy: UNDETERMINED,
+  },
+  agreement_px: {
+    good: "Alle Starts des Lösers führen zur selben Kamera.",
+    bad: "Verschiedene Starts des Lösers führen zu verschiedenen Kameras.",
+    remedy: UNDETERMINED,
+  },
+  monotone_ratio: {
+    good: "Die Verzeichnung wächst stetig bis über die fernste Ecke hinaus.",
+    bad: "Die Verzeichnung faltet sich im Bild zurück, sodass zwei Richtungen ein Pixel teilen.",
+    remedy:
+      "Die Linse ist weiter, als dieses Linsenmodell beschreiben kann, oder nahe am Rand wurde keine Ecke gesehen: Ansichten mit dem Target in den Bildecken hinzufügen. Ein anderes Linsenmodell wählen: rational8 für eine weite Linse, kannala_brandt4 für ein Fischauge.",
+  },
+  square_pixels: {
+    good: "fx und fy stehen im Verhältnis, das die Pixel ihnen geben.",
+    bad: "Das Verhältnis von fx zu fy stimmt nicht: Bild oder Felder wurden gestreckt.",
+    remedy: "Das Target nachmessen und ohne Skalierung aufnehmen.",
+  },
+  paper_score: { good: "Die Gütezahl der Vorlage gegen die Nennkamera der SKU; höher ist näher." },
+  nominal_difference_px: {
+    good: "Wie weit diese Kamera die Arbeitszone anders abbildet als die Nennkamera der SKU.",
+  },
+};

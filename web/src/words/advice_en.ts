@@ -1,0 +1,165 @@
+// What each reason of a gate says, in English: what is good, what is wrong, what to do. The codes are the core's.
+import type { About, Advice } from "./advice";
+
+export const adviceEn = {
+  wrong_target: {
+    good: "No image shows another board than the declared one.",
+    bad: ({ views }: About) => `Another board than the declared one is in: ${views}.`,
+    remedy: "Use the declared board, or declare the one that is used.",
+  },
+  refused_images: {
+    good: "Every image could be used.",
+    bad: ({ views }: About) => `Not used: ${views}.`,
+    remedy: "Take those images again or leave them out.",
+  },
+  facing: {
+    good: "The board faces the camera in every view.",
+    bad: ({ views }: About) => `The solution shows the back of the board in: ${views}.`,
+    remedy: "Take that image again; if it is mirrored, switch off mirroring in the camera.",
+  },
+  nearest_corner: {
+    good: "The board is in front of the camera in every view.",
+    bad: ({ views }: About) => `The solution puts the board behind the camera in: ${views}.`,
+    remedy: "Take that image again.",
+  },
+  parity_separation: {
+    good: "Dark and bright squares are clearly apart in every view.",
+    bad: ({ views }: About) => `Dark and bright squares are hard to tell apart in: ${views}.`,
+    remedy: "Light the board evenly, without reflections, and check that it is the declared one.",
+  },
+  contrast: {
+    good: "The contrast is sufficient in every view.",
+    bad: ({ views }: About) => `Dark and bright squares differ too little in: ${views}.`,
+    remedy: "Give more light or a longer exposure.",
+  },
+  edge_width_px: {
+    good: "Every view is sharp.",
+    bad: ({ views }: About) => `Blurred: ${views}.`,
+    remedy: ({ views }: About) =>
+      `Take again: ${views}. Hold the board still, shorten the exposure, or keep it further away.`,
+  },
+  blurred_lens: {
+    good: "Every view is sharp.",
+    bad: ({ fact }: About) => `${fact("count")} of ${fact("of")} views are blurred.`,
+    remedy: "Focus the lens, then take the views again.",
+  },
+  quadrant_ratio: {
+    good: "All quadrants are as sharp as the centre.",
+    bad: ({ fact }: About) =>
+      `The image is softer ${fact("quadrant").replace("-", " ")} than in its centre: the lens is tilted or decentred.`,
+    remedy: "Check how the lens is mounted and focused.",
+  },
+  missing_poses: {
+    good: "Every prescribed pose was taken.",
+    bad: ({ poses }: About) => `Not taken: ${poses}.`,
+    remedy: "Take a picture at each of these poses.",
+  },
+  match_px: {
+    good: "Every view lies on its prescribed pose.",
+    bad: ({ views }: About) =>
+      views === "" ? "No view lies on its prescribed pose." : `Too far from the prescribed pose: ${views}.`,
+    remedy: "Take it again, closer to the pose that is shown.",
+  },
+  view_separation_px: {
+    good: "No view is there twice.",
+    bad: ({ views }: About) => `These show the board in the same place and tell no more than one: ${views}.`,
+    remedy: "Leave one of them out, and move the board between pictures.",
+  },
+  image_coverage: {
+    good: "The share of the image in which corners were seen; the calibration is valid there only.",
+  },
+  coverage: {
+    good: "The views cover the working zone.",
+    bad: "Parts of the working zone were never seen.",
+    remedy: "Add views with the board towards the border of the image.",
+  },
+  rms_px: {
+    good: "Board, lens model and corners agree.",
+    bad: "The corners do not fit the model.",
+    remedy:
+      "Check that all images are of one camera and unscaled, that the board is the declared one, rigid and flat, and that nothing moved while the pictures were taken.",
+  },
+  rms_no_optimum: {
+    good: "Board, lens model and corners agree.",
+    bad: "The corners do not fit the model.",
+    remedy: ({ fact }: About) =>
+      `See the model gate first: the lens model ${fact("lens")} may not describe this lens.`,
+  },
+  rms_bent_board: {
+    good: "Board, lens model and corners agree.",
+    bad: "The corners do not fit the model.",
+    remedy: ({ share }: About) =>
+      `The residuals repeat with the corners of the board, which is probably not flat (bent by about ${share("bend")} of a square). Mount the pattern on a rigid, flat plate.`,
+  },
+  rms_other_lens: {
+    good: "Board, lens model and corners agree.",
+    bad: "The corners do not fit the model.",
+    remedy: ({ fact }: About) =>
+      `The residuals repeat with the distance from the image centre, so the lens model ${fact("lens")} does not describe this lens (a fisheye or a very wide lens?). Choose another lens model: rational8 for a wide lens, kannala_brandt4 for a fisheye.`,
+  },
+  smallest_rms_px: {
+    good: "The residuals are as large as real corners make them.",
+    bad: "The corners fit better than corners of real images can: they were computed or copied.",
+    remedy: "Use images of the camera.",
+  },
+  worst_view_ratio: {
+    good: "No view fits much worse than the others.",
+    bad: ({ views }: About) => `Fits much worse than the other views: ${views}.`,
+    remedy: ({ views }: About) => `Look at the corners of ${views} and take it again.`,
+  },
+  outlier_share: {
+    good: "Hardly any corner lies off.",
+    bad: "Too many corners lie more than four sigma off.",
+    remedy: "Look for reflections, dirt or something in front of the board.",
+  },
+  board_bend: {
+    good: ({ share }: About) =>
+      `Out-of-plane shape of the board that fits best, peak to peak; it explains ${share("share")} of the squared residuals.`,
+  },
+  focal_sd_share: {
+    good: "The focal length is well determined.",
+    bad: "The focal length is too uncertain.",
+    remedy: "Add views with the board tilted to both sides and close to the camera.",
+  },
+  centre_sd_px: {
+    good: "The principal point is well determined.",
+    bad: "The principal point is too uncertain.",
+    remedy:
+      "Add views with the board tilted to both sides and close to the camera, and with the board turned by about 90 degrees.",
+  },
+  zone_mapping_px: {
+    good: "The expected mapping error over the working zone is small.",
+    bad: "Points in the working zone would be mapped too inaccurately.",
+    remedy: "Add views, above all where the working zone was hardly covered.",
+  },
+  valid_mapping_px: {
+    good: "The expected mapping error is small everywhere in the valid region.",
+    bad: "At the border of the valid region the mapping is too uncertain.",
+    remedy: "Add views with the board in the corners of the image.",
+  },
+  converged: {
+    good: "The solver proved that it reached the optimum.",
+    bad: "The solver did not reach one optimum from every start.",
+    remedy:
+      "The views do not determine this camera, or the lens model does not suit it: take other views, with the board tilted, fix the coefficients that this lens does not need, or choose another lens model.",
+  },
+  agreement_px: {
+    good: "All starts of the solver lead to the same camera.",
+    bad: "Different starts of the solver lead to different cameras.",
+    remedy:
+      "The views do not determine this camera, or the lens model does not suit it: take other views, with the board tilted, fix the coefficients that this lens does not need, or choose another lens model.",
+  },
+  monotone_ratio: {
+    good: "The distortion grows steadily beyond the farthest corner.",
+    bad: "The distortion folds back inside the image, so that two directions share a pixel.",
+    remedy:
+      "The lens is wider than this lens model can describe, or no corner was seen near the border: add views with the board in the corners of the image. Choose another lens model: rational8 for a wide lens, kannala_brandt4 for a fisheye.",
+  },
+  square_pixels: {
+    good: "fx and fy are in the ratio that the pixels give them.",
+    bad: "The ratio of fx to fy is off: image or squares were stretched.",
+    remedy: "Measure the board, and record without scaling.",
+  },
+  paper_score: { good: "The paper’s score against the SKU’s nominal camera; higher is nearer." },
+  nominal_difference_px: { good: "How far this camera maps the working zone from the SKU’s nominal camera." },
+} satisfies Record<string, Advice>;
