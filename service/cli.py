@@ -26,6 +26,7 @@ from service.app import MOST_REQUESTS, create_app, largest_socket_message, open_
 from service.core.errors import BadRequest, ServiceError
 from service.core.planning.criterion import OBJECTIVES
 from service.core.quality.gates import Verdict
+from service.core.vision.camera import LENSES
 from service.core.vision.target import parse_target
 from service.log import configure_logging
 from service.settings import Settings
@@ -94,7 +95,7 @@ def build_parser() -> argparse.ArgumentParser:
 def _add_calibrate(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", type=Path, help="folder with the images of one camera")
     parser.add_argument("--target", help="such as chessboard:9x6:25mm (inner corners); by default the SKU's")
-    parser.add_argument("--lens", help="lens model; by default the SKU's, else pinhole5")
+    parser.add_argument("--lens", help=f"{', '.join(LENSES)}; by default the SKU's, else pinhole5")
     parser.add_argument("--fix", metavar="NAMES", help="parameters that are not estimated, such as k3,p1,p2")
     parser.add_argument(
         "--sku", type=Path, metavar="FILE", help="SKU document (JSON): nominal camera and limits"

@@ -38,7 +38,7 @@ class LiveRenderer:
         self._sensor = replace(self._scene, blur_px=0.0)
         self._kernel = _blur_kernel(self._scene.blur_px)
         self._plate = make_plate(scene.target, scene.border_squares)
-        rays = trace_rays(self._scene.intrinsics).ideal
+        rays = trace_rays(self._scene.intrinsics).directions
         self._rays = np.nan_to_num(rays).astype(np.float32)
         self._reached = np.isfinite(rays[0])
         self._falloff = lens_falloff(self._scene).astype(np.float32)
@@ -60,8 +60,8 @@ class LiveRenderer:
             return light
         part = np.s_[top:bottom, left:right]
         inverse = np.linalg.inv(np.column_stack([R[:, 0] * square, R[:, 1] * square, pose.tvec]))
-        x, y = self._rays[0][part], self._rays[1][part]
-        a, b, c = (np.float32(row[0]) * x + np.float32(row[1]) * y + np.float32(row[2]) for row in inverse)
+        x, y, z = (plane[part] for plane in self._rays)
+        a, b, c = (row[0] * x + row[1] * y + row[2] * z for row in inverse.astype(np.float32))
         ahead = (c > 1e-3) & self._reached[part]
         c = np.maximum(c, np.float32(1e-3))
         u, v = a / c, b / c

@@ -17,7 +17,8 @@ OUTLINE_POINTS = 65  # per side of the plate
 class Meeting:
     """Where rays meet the plate, or may: pixels as (rows (n,), columns (n,)), board points (n, 2) squares.
 
-    inverse_depth: (n,) 1/m. inverse: (3, 3), from (x, y, 1) of the ideal plane to (u, v, 1) / depth.
+    inverse_depth: (n,) by what a ray must be divided to end on the plate, 1/m. inverse: (3, 3), from rays
+    to (u, v, 1) times that.
     """
 
     pixels: tuple[NDArray[np.intp], NDArray[np.intp]]
@@ -33,8 +34,8 @@ def meet_board(scene: Scene, plate: Plate, rays: RayMap, pose: Pose) -> Meeting 
         return None
     inverse = np.linalg.inv(np.column_stack([R[:, 0] * square, R[:, 1] * square, pose.tvec]))
     top, bottom, left, right = board_bounds(scene, plate, pose)
-    x, y = rays.ideal[:, top:bottom, left:right]
-    a, b, c = (row[0] * x + row[1] * y + row[2] for row in inverse)
+    x, y, z = rays.directions[:, top:bottom, left:right]
+    a, b, c = (row[0] * x + row[1] * y + row[2] * z for row in inverse)
     (low_u, high_u), (low_v, high_v) = plate.reach
     # Multiplied by the inverse depth c, so that nothing is divided before it is known to be seen.
     seen = (c > 1e-3) & (a > low_u * c) & (a < high_u * c) & (b > low_v * c) & (b < high_v * c)
@@ -71,7 +72,7 @@ def may_meet_edge(meeting: Meeting, plate: Plate, rays: RayMap) -> NDArray[np.bo
     for axis in range(2):
         x, outline = meeting.uv[:, axis], plate.outline[axis].edges
         row, last = meeting.inverse[axis], meeting.inverse[2]
-        half = (np.abs(row[0] - x * last[0]) + np.abs(row[1] - x * last[1])) * spread
+        half = np.sqrt(row @ row + x * (x * (last @ last) - 2.0 * (row @ last))) * spread
         near |= np.abs(x - np.rint(x)) < half
         near |= np.abs(np.abs(x - outline.mean()) - 0.5 * np.ptp(outline)) < half
     return near
@@ -80,8 +81,8 @@ def may_meet_edge(meeting: Meeting, plate: Plate, rays: RayMap) -> NDArray[np.bo
 def board_jacobian(meeting: Meeting, rays: RayMap, at: NDArray[np.intp]) -> Array:
     """Return d(u, v)/d(pixel) (m, 2, 2) at some of the pixels where rays meet the board."""
     rows, columns = (indices[at] for indices in meeting.pixels)
-    ideal = rays.ideal[:, rows, columns].T
     inverse = meeting.inverse
-    by_ideal = inverse[None, :2, :2] - meeting.uv[at][:, :, None] * inverse[None, 2:, :2]
-    jacobian: Array = by_ideal / meeting.inverse_depth[at][:, None, None] @ rays.jacobian(ideal)
+    by_ray = inverse[None, :2] - meeting.uv[at][:, :, None] * inverse[None, 2:]
+    by_pixel = rays.jacobian(rays.directions[:, rows, columns].T)
+    jacobian: Array = by_ray / meeting.inverse_depth[at][:, None, None] @ by_pixel
     return jacobian

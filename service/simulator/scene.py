@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from service.core.errors import SceneInvalid
-from service.core.vision.camera import LENSES, Intrinsics, project_camera_points
+from service.core.vision.camera import Intrinsics, project_camera_points, reach_share
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose
 
@@ -84,9 +84,6 @@ def true_corners(scene: Scene, pose: Pose) -> Array:
 def project_points(scene: Scene, pose: Pose, object_points: Array) -> Array:
     """Return where board points (n, 3), m, lie in the picture (n, 2), px; NaN where the lens shows none."""
     points = object_points @ pose.rotation.T + pose.tvec
-    depth = points[:, 2:3]
-    ideal = points[:, :2] / np.where(depth > 0, depth, np.nan)
-    # Beyond the radius at which the lens's polynomial turns it would fold a point back into the picture.
-    reach = LENSES[scene.intrinsics.lens].monotone_radius(scene.intrinsics.dist_coeffs)
-    seen = np.linalg.norm(ideal, axis=1, keepdims=True) < reach
+    # Beyond its reach a lens model would fold a point back into the picture.
+    seen = reach_share(scene.intrinsics, points)[:, None] < 1.0
     return np.where(seen, project_camera_points(scene.intrinsics, points), np.nan)

@@ -5,7 +5,7 @@ Here: its fields, their checks and the way into the core's values. Not here: rev
 """
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Self
 
 from pydantic import (
     AfterValidator,
@@ -49,6 +49,14 @@ def bounds_field() -> Any:
     return Field(default=None, strict=False)
 
 
+def check_lens(name: str) -> str:
+    """Return the name of a lens model, or raise ValueError unless the camera knows it."""
+    if name not in LENSES:
+        raise ValueError(f"is not a lens model; choose one of: {', '.join(LENSES)}")
+    return name
+
+
+LensName = Annotated[str, AfterValidator(check_lens), Field(json_schema_extra={"enum": list(LENSES)})]
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
 Corner = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
 DegreeRange = Annotated[tuple[Degrees, Degrees], AfterValidator(check_ordered)]
@@ -176,7 +184,7 @@ class SkuDocument(Document):
 
     code: Code = Field(description="Short name in addresses: lower-case letters, digits, '.', '_' and '-'.")
     name: Label
-    lens: Literal["pinhole5"] = Field(description="Lens model.")
+    lens: LensName = Field(description="Lens model.")
     image_size: tuple[Pixels, Pixels] = Field(strict=False, description="Width and height, px.")
     nominal: dict[str, Finite] = Field(
         default_factory=dict,

@@ -7,7 +7,9 @@ import pytest
 
 from tests.plant import Plant
 
-IMAGES = Path(__file__).resolve().parents[3] / "shared" / "data" / "opencv_left_right"
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
+IMAGES = DATA / "opencv_left_right"
+FISHEYE_IMAGES = DATA / "boofcv_fisheye_chess"
 
 pytestmark = [
     pytest.mark.data,
@@ -24,6 +26,14 @@ SKU = {
     "image_size": [640, 480],
     "nominal": {"fx": 550.0, "fy": 550.0, "cx": 320.0, "cy": 240.0},
     "target": "chessboard:9x6:25mm",
+}
+FISHEYE_SKU = {
+    "code": "fisheye",
+    "name": "BoofCV's sample fisheye",
+    "lens": "kannala_brandt4",
+    "image_size": [640, 720],
+    "nominal": {"fx": 200.0, "fy": 200.0, "cx": 320.0, "cy": 330.0},
+    "target": "chessboard:6x4:30mm",
 }
 
 
@@ -49,3 +59,20 @@ def test_the_opencv_pictures_give_the_published_camera(
         assert abs(result["intrinsics"][name] - value) <= 1.5
     vehicle = plant.expect(200, plant.get(f"/vehicles/{side}"))
     assert vehicle["latest_result"]["id"] == result["id"]
+
+
+def test_a_real_fisheye_is_calibrated_by_its_model(small_plant: Plant) -> None:
+    plant = small_plant
+    plant.expect(201, plant.post("/skus", FISHEYE_SKU))
+    plant.expect(200, plant.post("/skus/fisheye/revisions/1/publish"))
+    run = plant.expect(201, plant.post("/runs", {"sku": "fisheye", "serial": "boofcv", "purpose": "trial"}))
+
+    for path in sorted(FISHEYE_IMAGES.glob("*.jpg")):
+        plant.expect(201, plant.send(run["id"], path.read_bytes(), media_type="image/jpeg"))
+    result = plant.expect(200, plant.finish(run["id"]))
+
+    assert result["lens"] == "kannala_brandt4"
+    assert set(result["intrinsics"]) == {"fx", "fy", "cx", "cy", "k1", "k2", "k3", "k4"}
+    assert len(result["views"]) == 26
+    assert result["rms_px"] <= 0.25
+    assert abs(result["intrinsics"]["fx"] / result["intrinsics"]["fy"] - 1.0) < 0.002

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from service.core.vision.camera import Intrinsics, undistort
+from service.core.vision.camera import Intrinsics, unproject
 from service.core.vision.target import Chessboard, parse_target
-from service.core.vision.transforms import Pose, rotation_matrix, rotation_vector
+from service.core.vision.transforms import Pose, compose, rotation_matrix, rotation_vector
 
 LENS_1 = Intrinsics.from_parameters(
     "pinhole5",
@@ -15,6 +15,25 @@ LENS_2 = Intrinsics.from_parameters(
     "pinhole5",
     {"fx": 972.5, "fy": 974.4, "cx": 954.9, "cy": 644.4, "k1": -0.3454, "k2": 0.1398},
     (1920, 1208),
+)
+# 120 degrees across; its image corners look 72 degrees aside.
+FISHEYE = Intrinsics.from_parameters(
+    "kannala_brandt4",
+    {
+        "fx": 917.3,
+        "fy": 916.4,
+        "cx": 955.0,
+        "cy": 610.0,
+        "k1": -0.021,
+        "k2": 0.0072,
+        "k3": -0.0041,
+        "k4": 8e-4,
+    },
+    (1920, 1208),
+)
+# Its image corners look behind the camera.
+ALL_ROUND = Intrinsics.from_parameters(
+    "kannala_brandt4", {"fx": 80.0, "fy": 80.0, "cx": 128.0, "cy": 80.0, "k1": 0.01}, (256, 160)
 )
 BOARD = parse_target("chessboard:9x6:25mm")
 
@@ -44,9 +63,18 @@ def centred_pose(target: Chessboard, degrees: tuple[float, ...], centre: tuple[f
 
 
 def varied_poses(camera: Intrinsics) -> list[Pose]:
-    """Return a dozen poses at which a camera sees the 9x6 board whole."""
+    """Return a dozen poses at which a camera sees the 9x6 board whole.
+
+    Of a fisheye depth and turn are along the line of sight: far aside, a board that faces along the axis
+    shows its edge.
+    """
     poses = []
     for *degrees, share_x, share_y, depth in VARIED:
-        x, y = undistort(camera, np.array([share_x, share_y]) * camera.image_size) * depth
-        poses.append(centred_pose(BOARD, tuple(degrees), (x, y, depth)))
+        ray = unproject(camera, np.array([share_x, share_y]) * camera.image_size)
+        if camera.lens == "pinhole5":
+            poses.append(centred_pose(BOARD, tuple(degrees), tuple(ray / ray[2] * depth)))
+            continue
+        aside = np.cross([0.0, 0.0, 1.0], ray)
+        turn = Pose(aside / np.linalg.norm(aside) * np.arccos(ray[2]), np.zeros(3))
+        poses.append(compose(turn, centred_pose(BOARD, tuple(degrees), (0.0, 0.0, depth))))
     return poses

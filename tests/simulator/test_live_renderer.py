@@ -13,9 +13,9 @@ from service.core.vision.transforms import Array, Pose
 from service.simulator.live_renderer import LiveRenderer, halve_scene
 from service.simulator.renderer import PreparedScene, prepare
 from service.simulator.scene import Scene, clean_scene, production_scene, true_corners
-from tests.simulator.cameras import BOARD, LENS_1, LENS_2, centred_pose, varied_poses
+from tests.simulator.cameras import BOARD, FISHEYE, LENS_1, LENS_2, centred_pose, varied_poses
 
-LENSES = {"lens 1": LENS_1, "lens 2": LENS_2}
+LENSES = {"lens 1": LENS_1, "lens 2": LENS_2, "fisheye": FISHEYE}
 NOWHERE = centred_pose(BOARD, (0, 0, 0), (3.0, 0.0, 0.4))
 SMALL = Intrinsics.from_parameters(
     "pinhole5", {"fx": 270.0, "fy": 270.4, "cx": 131.0, "cy": 76.4, "k1": -0.3774, "k2": 0.2425}, (256, 160)
@@ -121,7 +121,7 @@ def test_pixels_that_the_lens_does_not_reach_show_the_background() -> None:
     )
     scene = clean_scene(folding, BOARD)
     near, background = _frame(scene, centred_pose(BOARD, (0, 0, 0), (0.0, 0.0, 0.05))), _frame(scene, NOWHERE)
-    beyond = np.isnan(prepare(halve_scene(scene)).rays.ideal[0])
+    beyond = np.isnan(prepare(halve_scene(scene)).rays.directions[0])
     assert np.mean(beyond) > 0.2
     np.testing.assert_array_equal(near[beyond], background[beyond])
     assert np.mean(near[~beyond] != background[~beyond]) > 0.9

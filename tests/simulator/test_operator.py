@@ -25,6 +25,13 @@ def station(index: int) -> Station:
     return plan_station(PAPER_SKUS[index], 300)
 
 
+@functools.cache
+def fisheye_station() -> Station:
+    """Return a station whose camera sees 200 degrees from corner to corner, with its poses."""
+    nominal = {"fx": 431.0, "fy": 431.0, "cx": 639.5, "cy": 399.5, "k1": 0.01}
+    return plan_station({**PAPER_SKUS[0], "lens": "kannala_brandt4", "nominal": nominal}, 300)
+
+
 def board_at(centre: tuple[float, float, float], degrees: tuple[float, float, float] = (0, 0, 0)) -> Pose:
     R = rotation_matrix(np.deg2rad(np.array(degrees)))
     return Pose(rotation_vector(R), np.array(centre) - R @ station(0).settings.target.centre)
@@ -65,6 +72,13 @@ def guide(
 def test_the_hand_reaches_planned_poses_from_random_starts(index: int, pose: int) -> None:
     start = random_starts(station(index), 12, seed=5)[pose]
     assert reach(station(index), station(index).poses[pose], start, seed=pose).complete
+
+
+@pytest.mark.parametrize("pose", [0, 5, 11])
+def test_the_hand_reaches_what_is_planned_for_an_all_round_fisheye(pose: int) -> None:
+    fisheye = fisheye_station()
+    start = random_starts(station(1), 12, seed=6)[pose]
+    assert reach(fisheye, fisheye.poses[pose], start, seed=pose).complete
 
 
 @pytest.mark.parametrize("hint", WAYS)

@@ -12,7 +12,9 @@ import pytest
 
 from service.core.errors import FolderUnusable, IntrinsicsInvalid, TooFewViews
 from service.core.quality.gates import Verdict
+from service.core.vision.camera import LENSES
 from service.core.vision.target import parse_target
+from service.core.vision.transforms import stack_poses
 from service.simulator.renderer import prepare
 from service.simulator.scene import production_scene
 from service.usecases.folder_calibration import FolderCalibration, calibrate_folder, list_images
@@ -187,6 +189,22 @@ def test_the_fisheye_fails_on_the_model(tmp_path: Path) -> None:
     judged = calibrate_folder(folder, parse_target("chessboard:6x4"), "pinhole5").judged
     failed = {one.gate for one in judged.measurements if one.verdict is Verdict.FAIL}
     assert {"fit", "model"} <= failed
+
+
+@pytest.mark.data
+def test_the_fisheye_fits_a_fisheye_model(tmp_path: Path) -> None:
+    folder = real_images("boofcv_fisheye_chess", "*.jpg", tmp_path)
+    judged = calibrate_folder(folder, parse_target("chessboard:6x4:30mm"), "kannala_brandt4").judged
+    assert len(judged.views) == 26
+    assert judged.result.converged
+    assert judged.result.rms_px < 0.25
+    assert judged.valid_mapping.worst_px < 0.3
+    failed = {one.gate for one in judged.measurements if one.verdict is Verdict.FAIL}
+    assert failed <= {"sharpness"}  # one picture is a little blurred
+    rotations, translations = stack_poses(judged.result.poses)
+    points = np.swapaxes(rotations @ parse_target("chessboard:6x4:30mm").object_points.T, 1, 2)
+    farthest = LENSES["kannala_brandt4"].radius(points + translations[:, None]).max()
+    assert np.degrees(farthest) > 90.0  # corners behind the camera's own plane
 
 
 @pytest.mark.data

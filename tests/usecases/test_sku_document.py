@@ -4,6 +4,7 @@ import pytest
 from pydantic import ValidationError
 
 from service.core.planning.fixture import Box
+from service.core.vision.camera import LENSES
 from service.core.vision.tolerance import Tolerance
 from service.usecases.sku_document import EXAMPLE, SkuDocument
 from tests.plant import SKU
@@ -33,13 +34,22 @@ def test_what_is_not_given_takes_the_defaults_of_the_image_size() -> None:
     assert (small.working_zone, small.fixed, small.pose_count) == (None, (), 12)
 
 
+def test_every_lens_of_the_registry_may_be_declared_and_is_in_the_schema() -> None:
+    for lens in LENSES:
+        document = {**as_dict(EXAMPLE), "lens": lens}
+        assert SkuDocument.model_validate(document).to_revision().intrinsics.lens == lens
+    assert SkuDocument.model_json_schema()["properties"]["lens"]["enum"] == list(LENSES)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
         ({"code": "Lens 1"}, "pattern"),
         ({"name": "A\u0000B"}, "U+0000"),
         ({"name": ""}, "at least 1"),
-        ({"lens": "fisheye"}, "pinhole5"),
+        ({"lens": "fisheye"}, "pinhole5, rational8, kannala_brandt4"),
+        ({"lens": 5}, "valid string"),
+        ({"lens": "kannala_brandt4", "fixed": ["p1"]}, "p1"),
         ({"image_size": [1280]}, "Field required"),
         ({"image_size": [1280.5, 800]}, "integer"),
         ({"image_size": [1280, 10**9]}, "less than or equal"),

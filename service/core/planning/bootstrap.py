@@ -11,12 +11,12 @@ from typing import Final
 
 import numpy as np
 
-from service.core.errors import IntrinsicsInvalid, PoseSetInfeasible
+from service.core.errors import PoseSetInfeasible
 from service.core.planning.plan import PoseSet
 from service.core.planning.pose_space import Poses, PoseSpace, infeasibilities
 from service.core.planning.prediction import predict_accuracy, zone_within
 from service.core.vision.calibration import View, calibrate_intrinsics
-from service.core.vision.camera import Intrinsics
+from service.core.vision.camera import Intrinsics, focal_of_view
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Pose, stack_poses
 from service.core.vision.uncertainty import Region
@@ -24,7 +24,6 @@ from service.core.vision.uncertainty import Region
 # A plan holds when a new one would promise less than this much more accuracy.
 SETTLED_RATIO: Final = 1.1
 MOST_ROUNDS: Final = 5
-FISHEYE: Final = "kannala_brandt4"
 
 
 @dataclass(frozen=True)
@@ -64,8 +63,8 @@ def nominal_of_data_sheet(
     f = half size / tan(half angle), or over the half angle itself. Raises IntrinsicsInvalid for angles that
     such a lens cannot have.
     """
-    fx = _focal(lens, image_size[0], hfov_deg)
-    fy = fx if vfov_deg is None else _focal(lens, image_size[1], vfov_deg)
+    fx = focal_of_view(lens, image_size[0], hfov_deg)
+    fy = fx if vfov_deg is None else focal_of_view(lens, image_size[1], vfov_deg)
     centre = {"cx": (image_size[0] - 1) / 2.0, "cy": (image_size[1] - 1) / 2.0}
     return Intrinsics.from_parameters(lens, {"fx": fx, "fy": fy, **centre}, image_size)
 
@@ -121,15 +120,3 @@ def bootstrap(
             break
         nominal, pose_set = result.intrinsics, better
     return tuple(rounds)
-
-
-def _focal(lens: str, size_px: int, view_deg: float) -> float:
-    widest = 179.0 if lens != FISHEYE else 359.0
-    if not 0.0 < view_deg < widest:
-        raise IntrinsicsInvalid(
-            f"A field of view of {view_deg:g} degrees is impossible for lens '{lens}'; give one between 0 "
-            f"and {widest:g}, or choose a fisheye lens.",
-            view_deg=view_deg,
-        )
-    half = math.radians(view_deg) / 2.0
-    return 0.5 * size_px / (half if lens == FISHEYE else math.tan(half))

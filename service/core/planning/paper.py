@@ -18,7 +18,7 @@ from service.core.planning.pose_space import Indices, Poses, PoseSpace, check_po
 from service.core.planning.prediction import zone_within
 from service.core.planning.scoring import paper_score
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
-from service.core.vision.camera import Intrinsics, project, undistort
+from service.core.vision.camera import Intrinsics, project, unproject
 from service.core.vision.residuals import mean_reprojection_error
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, rotation_matrix
@@ -146,7 +146,7 @@ def _random_poses(
     )
     rotations = yaw @ pitch @ roll
     centre_px = rng.uniform((0.0, 0.0), intrinsics.image_size, (count, 2))
-    rays = np.concatenate([undistort(intrinsics, centre_px), np.ones((count, 1))], axis=1)
+    rays = unproject(intrinsics, centre_px)
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
     centres = rays * rng.uniform(*space.distance_m, (count, 1))
     return Poses(rotations, centres - rotations @ target.centre)

@@ -13,7 +13,13 @@ from scipy.stats import qmc
 
 from service.core.errors import PoseSpaceEmpty
 from service.core.planning.fixture import Box, touches_a_box
-from service.core.planning.visibility import LENS_SHARE, Visibility, measure_visibility, place_targets
+from service.core.planning.visibility import (
+    FARTHEST_ASIDE_RAD,
+    LENS_SHARE,
+    Visibility,
+    measure_visibility,
+    place_targets,
+)
 from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
@@ -35,8 +41,8 @@ REMEDIES: Mapping[str, str] = {
     "widen depth_of_field_m if the lens is sharp there",
     "excluded_boxes": "plates touch the fixture: move or shrink the boxes (camera frame, m), or take a "
     "smaller board",
-    "lens": "boards reach beyond where the lens model is monotone: check its coefficients, or keep boards "
-    "off the image corners with a larger image_margin_px",
+    "lens": "boards reach beyond where the lens model is monotone, or farther aside than a hand can be led: "
+    "check its coefficients, or keep boards off the image corners with a larger image_margin_px",
 }
 
 
@@ -148,7 +154,7 @@ def _failures(space: PoseSpace, target: Chessboard, poses: Poses, seen: Visibili
         "largest_incidence_deg": seen.incidence_rad > np.deg2rad(space.largest_incidence_deg),
         "depth_of_field_m": ~((seen.nearest_m >= near) & (seen.farthest_m <= far)),
         "excluded_boxes": touches_a_box(space.excluded_boxes, target, poses.rotations, poses.translations),
-        "lens": seen.lens_share > LENS_SHARE,
+        "lens": (seen.lens_share > LENS_SHARE) | (seen.aside_rad > FARTHEST_ASIDE_RAD),
     }
 
 

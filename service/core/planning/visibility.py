@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.camera import LENSES, Intrinsics, project, undistort
+from service.core.vision.camera import Intrinsics, project, reach_share, unproject
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array
 
@@ -20,24 +20,28 @@ PLACING_SLACK_PX = 0.5
 # This share of the boards touches the left or right margin, and the upper or lower one: the optimum lies
 # there.
 BORDER_SHARE = 0.25
-# A lens polynomial is trusted up to this share of the radius where it turns back.
+# A lens model is trusted up to this share of the radius where it turns back.
 LENS_SHARE = 0.98
+# Words such as left and closer lead a hand no farther aside than this; only a fisheye sees boards beyond.
+FARTHEST_ASIDE_RAD = float(np.deg2rad(62.0))
 
 
 @dataclass(frozen=True)
 class Visibility:
-    """What m poses look like; arrays (m,), NaN for a corner behind the camera; image_points (m, n, 2) px.
+    """What m poses look like; arrays (m,), NaN where the lens has no image; image_points (m, n, 2) px.
 
     clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
     shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
-    to a corner. lens_share: largest ideal radius of a corner over the radius up to which the lens model is
-    monotone. nearest_m, farthest_m: smallest and largest depth of a corner. columns: of the target's corners.
+    to a corner. lens_share: how far out the outermost corner is, as a share of the reach of the lens.
+    aside_rad: angle between the optical axis and the line of sight to the target's centre. nearest_m,
+    farthest_m: smallest and largest depth of a corner. columns: of the target's corners.
     """
 
     clearance_px: Array
     smallest_square_px: Array
     incidence_rad: Array
     lens_share: Array
+    aside_rad: Array
     nearest_m: Array
     farthest_m: Array
     image_points: Array
@@ -75,20 +79,19 @@ def measure_visibility(
 ) -> Visibility:
     """Return what poses (m, 3, 3), (m, 3) look like to a camera."""
     points = target.object_points @ np.swapaxes(rotations, -1, -2) + translations[:, None, :]
-    depth = points[..., 2]
-    ideal = points[..., :2] / np.where(depth > 0, depth, np.nan)[..., None]
     pixels = project(intrinsics, rotations, translations, target.object_points)
     to_border = np.minimum(pixels, np.array(intrinsics.image_size) - 1.0 - pixels)
-    limit = LENSES[intrinsics.lens].monotone_radius(intrinsics.vector[4:])
-    length = np.sqrt(points[..., 0] ** 2 + points[..., 1] ** 2 + depth**2)
+    centres = rotations @ target.centre + translations
+    length = np.sqrt(points[..., 0] ** 2 + points[..., 1] ** 2 + points[..., 2] ** 2)
     cosine = (points @ rotations[:, :, 2, None])[..., 0] / length
     return Visibility(
         clearance_px=to_border.min(axis=(1, 2)),
         smallest_square_px=_shortest_side(pixels, target),
         incidence_rad=np.arccos(np.clip(cosine.min(axis=1), -1.0, 1.0)),
-        lens_share=np.sqrt((ideal[..., 0] ** 2 + ideal[..., 1] ** 2).max(axis=1)) / limit,
-        nearest_m=depth.min(axis=1),
-        farthest_m=depth.max(axis=1),
+        lens_share=reach_share(intrinsics, points).max(axis=1),
+        aside_rad=np.arctan2(np.hypot(centres[:, 0], centres[:, 1]), centres[:, 2]),
+        nearest_m=points[..., 2].min(axis=1),
+        farthest_m=points[..., 2].max(axis=1),
         image_points=pixels,
         columns=target.columns,
     )
@@ -128,7 +131,7 @@ def _translations(
     intrinsics: Intrinsics, target: Chessboard, rotations: Array, distances: Array, centre_px: Array
 ) -> Array:
     """Return translations (m, 3) of targets whose centres lie on the rays of pixels (m, 2)."""
-    rays = np.concatenate([undistort(intrinsics, centre_px), np.ones((len(centre_px), 1))], axis=1)
+    rays = unproject(intrinsics, centre_px)
     centres = rays * (distances / np.linalg.norm(rays, axis=1))[:, None]
     translations: Array = centres - rotations @ target.centre
     return translations

@@ -12,9 +12,20 @@ from typing import Literal
 from service.core.quality.limits import Limits
 from service.core.quality.reasons import Facts, Reason
 
-__all__ = ["Comparison", "Limits", "Measurement", "Verdict", "check_limit", "report_value", "worst_verdict"]
+__all__ = [
+    "OTHER_LENS",
+    "Comparison",
+    "Limits",
+    "Measurement",
+    "Verdict",
+    "check_limit",
+    "report_value",
+    "worst_verdict",
+]
 
 Comparison = Literal["<=", ">=", "=="]
+
+OTHER_LENS = "Choose another lens model: rational8 for a wide lens, kannala_brandt4 for a fisheye."
 
 
 class Verdict(StrEnum):

@@ -11,7 +11,7 @@ up.
 import numpy as np
 
 from service.core.quality.evidence import Evidence
-from service.core.quality.gates import Measurement, check_limit, report_value
+from service.core.quality.gates import OTHER_LENS, Measurement, check_limit, report_value
 from service.core.quality.gates_frame import some_views
 from service.core.quality.reasons import Facts, Reason
 from service.core.quality.residual_causes import Causes, explain_residuals
@@ -69,7 +69,7 @@ def _remedy(evidence: Evidence, causes: Causes) -> tuple[str, Reason, Facts]:
     if causes.lens_share > CLEAR_SHARE:
         said = (
             f"The residuals repeat with the distance from the image centre, so the lens model {lens} does "
-            "not describe this lens (a fisheye or a very wide lens?). Choose another lens model."
+            f"not describe this lens (a fisheye or a very wide lens?). {OTHER_LENS}"
         )
         return said, Reason.RMS_OTHER_LENS, {"lens": lens}
     said = (

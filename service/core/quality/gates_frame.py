@@ -6,6 +6,8 @@ because then nobody knows which board the other images show.
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from service.core.errors import WrongTarget
 from service.core.quality.evidence import Evidence, Refusal
 from service.core.quality.gates import Measurement, Verdict, check_limit
@@ -73,9 +75,13 @@ def _refused_images(refused: Sequence[Refusal]) -> Measurement:
 
 
 def _facing(evidence: Evidence) -> tuple[Measurement, Measurement]:
+    # Along the line of sight to the board's centre, not along the camera's axis: a fisheye looks sideways.
     rotations, translations = stack_poses(evidence.result.poses)
-    facing = rotations[:, 2, 2]
-    depth = (rotations @ evidence.target.object_points.T + translations[:, :, None])[:, 2].min(axis=1)
+    centres = rotations @ evidence.target.centre + translations
+    sight = centres / np.linalg.norm(centres, axis=1, keepdims=True)
+    points = evidence.target.object_points @ np.swapaxes(rotations, 1, 2) + translations[:, None]
+    facing = np.sum(rotations[:, :, 2] * sight, axis=1)
+    depth = (points @ sight[:, :, None])[..., 0].min(axis=1)
     return (
         check_limit(
             GATE,

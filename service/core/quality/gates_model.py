@@ -9,14 +9,15 @@ import math
 import numpy as np
 
 from service.core.quality.evidence import Evidence
-from service.core.quality.gates import Measurement, check_limit
-from service.core.vision.camera import LENSES, Intrinsics, undistort
+from service.core.quality.gates import OTHER_LENS, Measurement, check_limit
+from service.core.vision.camera import Intrinsics, reach_share, unproject
 from service.core.vision.transforms import stack_poses
 
 GATE = "model"
 OTHER = (
     "The views do not determine this camera, or the lens model does not suit it: "
-    "take other views, with the board tilted, or choose another lens model."
+    "take other views, with the board tilted, fix the coefficients that this lens does not need, "
+    "or choose another lens model."
 )
 RATIO_CAP = 10.0  # a polynomial that never folds has an infinite ratio, which no report can show
 
@@ -74,25 +75,23 @@ def _monotone(evidence: Evidence) -> Measurement:
         good="The distortion grows steadily beyond the farthest corner.",
         bad="The distortion folds back inside the image, so that two directions share a pixel.",
         remedy="The lens is wider than this lens model can describe, or no corner was seen near the border: "
-        "choose another lens model, or add views with the board in the corners of the image.",
+        f"add views with the board in the corners of the image. {OTHER_LENS}",
     )
 
 
 def _monotone_ratio(evidence: Evidence) -> float:
-    """Return the radius up to which the distortion grows over the farthest radius in use, ideal image plane.
+    """Return the reach of the lens over the farthest radius in use, both in the lens's own measure.
 
     In use are the corners that were seen and the valid region; 0 where the lens does not reach a point of it.
     """
     intrinsics = evidence.result.intrinsics
     rotations, translations = stack_poses(evidence.result.poses)
     points = np.swapaxes(rotations @ evidence.target.object_points.T, 1, 2) + translations[:, None]
-    seen = points[..., :2] / points[..., 2:]
-    valid = undistort(intrinsics, evidence.valid_grid)
+    valid = unproject(intrinsics, evidence.valid_grid)
     if not np.all(np.isfinite(valid)):
         return 0.0
-    farthest = max(float(np.linalg.norm(xy, axis=-1).max()) for xy in (seen, valid))
-    limit = float(LENSES[intrinsics.lens].monotone_radius(intrinsics.dist_coeffs))
-    return min(limit / farthest, RATIO_CAP)
+    farthest = max(float(reach_share(intrinsics, seen).max()) for seen in (points, valid))
+    return 1.0 / max(farthest, 1.0 / RATIO_CAP)
 
 
 def _aspect(intrinsics: Intrinsics) -> float:

@@ -7,14 +7,15 @@ vectorised over views. Not here: the solve itself.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
-from service.core.vision.camera import Intrinsics, parameter_names, undistort
+from service.core.vision.camera import LENSES, Intrinsics, focal_of_view, parameter_names, unproject
 from service.core.vision.normal_equations import Estimate
 from service.core.vision.transforms import Array, rotation_matrix
 from service.core.vision.view_stack import ViewStack
+from service.core.vision.virtual_view import turn_towards
 
 DISTORTION_SHARES = (1.0, 0.9, 0.8, 0.6, 0.4, 0.2)
-SWEEP_HFOV_DEG = (40.0, 60.0, 90.0, 120.0)
 
 
 def nominal_start(nominal: Intrinsics, stack: ViewStack) -> Estimate:
@@ -24,23 +25,30 @@ def nominal_start(nominal: Intrinsics, stack: ViewStack) -> Estimate:
     """
     for share in DISTORTION_SHARES:
         vector = nominal.vector * np.r_[np.ones(4), np.full(len(nominal.dist_coeffs), share)]
-        ideal = undistort(
-            Intrinsics.from_vector(nominal.lens, vector, nominal.image_size), stack.image_points
-        )
-        if np.all(np.isfinite(ideal)):
-            return Estimate(vector, *planar_poses(stack, ideal))
+        rays = unproject(Intrinsics.from_vector(nominal.lens, vector, nominal.image_size), stack.image_points)
+        if np.all(np.isfinite(rays)):
+            return Estimate(vector, *planar_poses(stack, rays))
     plain = np.r_[nominal.vector[:4], np.zeros(len(nominal.dist_coeffs))]
-    return Estimate(plain, *planar_poses(stack, (stack.image_points - plain[2:4]) / plain[:2]))
+    return Estimate(plain, *planar_poses(stack, _plain_rays(nominal.lens, plain, stack)))
 
 
 def sweep_starts(lens: str, image_size: tuple[int, int], stack: ViewStack) -> list[Estimate]:
     """Return estimates of a few focal lengths without distortion, narrow to wide."""
     starts = []
-    for degrees in SWEEP_HFOV_DEG:
-        focal = image_size[0] / 2.0 / float(np.tan(np.radians(degrees / 2.0)))
-        vector = _plain_vector(lens, focal, image_size)
-        starts.append(Estimate(vector, *planar_poses(stack, (stack.image_points - vector[2:4]) / focal)))
+    for degrees in LENSES[lens].sweep_hfov_deg:
+        vector = _plain_vector(lens, focal_of_view(lens, image_size[0], degrees), image_size)
+        starts.append(Estimate(vector, *planar_poses(stack, _plain_rays(lens, vector, stack))))
     return starts
+
+
+def _plain_rays(lens: str, vector: Array, stack: ViewStack) -> Array:
+    """Return directions (v, n, 3) of the corners through a lens without distortion.
+
+    Where not even that reaches, as through a fisheye of too short a focal length, they are as in a pinhole.
+    """
+    image = (stack.image_points - vector[2:4]) / vector[:2]
+    rays = LENSES[lens].unproject(image, np.zeros(len(vector) - 4))
+    return np.where(np.isfinite(rays), rays, np.concatenate([image, np.ones_like(image[..., :1])], axis=-1))
 
 
 def blind_start(lens: str, image_size: tuple[int, int], stack: ViewStack) -> Estimate | None:
@@ -52,18 +60,34 @@ def blind_start(lens: str, image_size: tuple[int, int], stack: ViewStack) -> Est
     from_centre = stack.image_points - vector[2:4]
     in_plane = _radial_alignment(stack, from_centre)
     tilted = np.stack([_complete(in_plane[0], sign) for sign in (1.0, -1.0)])
-    solved = [_depths_and_focal(stack, from_centre, R, in_plane[1], joint=False) for R in tilted]
-    better = np.where(solved[0][2] <= solved[1][2], 0, 1)
+    errors = []
+    for R in tilted:
+        focal, translations, error = _depths_and_focal(stack, from_centre, R, in_plane[1], joint=False)
+        errors.append(np.where((focal > 0) & _are_shown(lens, translations), error, np.inf))
+    better = np.where(errors[0] <= errors[1], 0, 1)
     rotations = tilted[better, np.arange(len(better))]
-    focal, depths, _ = _depths_and_focal(stack, from_centre, rotations, in_plane[1], joint=True)
-    if not (np.isfinite(focal).all() and focal[0] > 0 and np.all(depths > 0)):
+    focal, translations, _ = _depths_and_focal(stack, from_centre, rotations, in_plane[1], joint=True)
+    if not (np.isfinite(focal).all() and focal[0] > 0 and np.all(_are_shown(lens, translations))):
         return None
     vector[:2] = focal[0]
-    return Estimate(vector, rotations, np.concatenate([in_plane[1], depths[:, None]], axis=-1))
+    return Estimate(vector, rotations, translations)
 
 
-def planar_poses(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
-    """Return rotations (v, 3, 3), translations (v, 3) m of ideal coordinates (v, n, 2), by homographies."""
+def planar_poses(stack: ViewStack, rays: Array) -> tuple[Array, Array]:
+    """Return rotations (v, 3, 3), translations (v, 3) m of directions (v, n, 3), by homographies."""
+    towards, ideal = turn_towards(rays)
+    rotations, translations = _poses_in_plane(stack, ideal)
+    back = np.swapaxes(towards, -1, -2)
+    return back @ rotations, (back @ translations[..., None])[..., 0]
+
+
+def _are_shown(lens: str, translations: Array) -> NDArray[np.bool_]:
+    """Whether a lens has an image at all of each board's origin (v, 3), m."""
+    return LENSES[lens].radius(translations) < np.inf
+
+
+def _poses_in_plane(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
+    """Return rotations (v, 3, 3), translations (v, 3) m of ideal coordinates (v, n, 2)."""
     centre, scale, board = _normalised_board(stack)
     one, zero = np.ones_like(board[..., :1]), np.zeros_like(board)
     plane = np.concatenate([board, one], axis=-1)
@@ -161,7 +185,7 @@ def _complete(block: Array, sign: float) -> Array:
 def _depths_and_focal(
     stack: ViewStack, from_centre: Array, rotations: Array, across: Array, joint: bool
 ) -> tuple[Array, Array, Array]:
-    """Return the focal length of all views (1,) or of each (v,) px, depths (v,) m, squared errors (v,).
+    """Return the focal length of all views (1,) or of each (v,) px, translations (v, 3) m, squared errors.
 
     With ρ a corner's distance from the centre and d its distance from the axis, (a + b ρ²) d − ρ tz = ρ q,
     where q is the corner's own depth against the board's origin; linear in a = f, b and the depths.
@@ -186,5 +210,5 @@ def _depths_and_focal(
     )
     error = right_free - (shared_free @ solution)[..., 0]
     depths = np.sum(own[..., 0] * (right - (shared @ solution)[..., 0]), axis=1) / weight[:, 0]
-    penalty = np.where((solution[:, 0, 0] > 0) & (depths > 0), 1.0, np.inf)
-    return solution[:, 0, 0] / unit, depths, np.sum(error * error, axis=1) * penalty
+    translations = np.concatenate([across, depths[:, None]], axis=-1)
+    return solution[:, 0, 0] / unit, translations, np.sum(error * error, axis=1)

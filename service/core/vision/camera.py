@@ -5,15 +5,18 @@ A lens model is one file (`lens_*.py`) and one line in `LENSES`. Not here: how i
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import ModuleType
 
 import numpy as np
 
 from service.core.errors import IntrinsicsInvalid
-from service.core.vision import lens_pinhole5
+from service.core.vision import lens_kannala_brandt4, lens_pinhole5, lens_rational8
+from service.core.vision.lens import Lens
 from service.core.vision.transforms import Array
 
-LENSES: Mapping[str, ModuleType] = {lens_pinhole5.NAME: lens_pinhole5}
+LENSES: Mapping[str, Lens] = {
+    module.LENS.name: module.LENS for module in (lens_pinhole5, lens_rational8, lens_kannala_brandt4)
+}
+LARGEST = float(np.finfo(np.float64).max)
 PINHOLE = ("fx", "fy", "cx", "cy")
 
 
@@ -72,22 +75,38 @@ def parameter_names(lens: str) -> tuple[str, ...]:
     """Return the names of a lens's parameters, fx fy cx cy first; IntrinsicsInvalid for an unknown lens."""
     if lens not in LENSES:
         raise IntrinsicsInvalid(f"Lens '{lens}' is not known; choose one of: {', '.join(LENSES)}.", lens=lens)
-    return PINHOLE + tuple(LENSES[lens].COEFFICIENTS)
+    return PINHOLE + LENSES[lens].coefficients
+
+
+def focal_of_view(lens: str, size_px: int, view_deg: float) -> float:
+    """Return the focal length, px, at which a lens without distortion has a field of view across an image.
+
+    Raises IntrinsicsInvalid for an unknown lens and for an angle that such a lens cannot have.
+    """
+    nothing = np.zeros(len(parameter_names(lens)) - len(PINHOLE))
+    model, half = LENSES[lens], np.radians(view_deg) / 2.0
+    border = np.array([np.sin(half), 0.0, np.cos(half)])
+    widest = 359.0 if np.isfinite(model.radius(np.array([0.0, 0.0, -1.0]))) else 179.0
+    if not 0.0 < view_deg < widest:
+        raise IntrinsicsInvalid(
+            f"A field of view of {view_deg:g} degrees is impossible for lens '{lens}'; give one between 0 "
+            f"and {widest:g}, or choose a fisheye lens.",
+            view_deg=view_deg,
+        )
+    return float(0.5 * size_px / model.project(border, nothing)[0])
 
 
 def project_camera_points(intrinsics: Intrinsics, points: Array) -> Array:
-    """Return pixels (..., 2) of camera-frame points (..., 3), m; NaN behind or beside the camera."""
-    model, vector = LENSES[intrinsics.lens], intrinsics.vector
-    z = points[..., 2:3]
-    ideal = np.where(z > 1e-9, points[..., :2], np.nan) / np.where(z > 1e-9, z, 1.0)
-    pixels: Array = model.distort(ideal, vector[4:]) * vector[:2] + vector[2:4]
+    """Return pixels (..., 2) of camera-frame points (..., 3), m; NaN where the lens has no image of them."""
+    vector = intrinsics.vector
+    pixels: Array = LENSES[intrinsics.lens].project(points, vector[4:]) * vector[:2] + vector[2:4]
     return pixels
 
 
 def project(intrinsics: Intrinsics, rotation: Array, translation: Array, object_points: Array) -> Array:
     """Return image points (..., n, 2) px of board points (n, 3) or (..., n, 3) m.
 
-    rotation: (..., 3, 3); translation: (..., 3) m. NaN for points behind or beside the camera.
+    rotation: (..., 3, 3); translation: (..., 3) m. NaN for points of which the lens has no image.
     """
     points = object_points @ np.swapaxes(rotation, -1, -2) + translation[..., None, :]
     return project_camera_points(intrinsics, points)
@@ -103,30 +122,19 @@ def project_with_jacobians(
     Returns image points (v, n, 2) px, derivatives by the parameters (v, n, 2, p), and by the pose (v, n, 2,
     6): a left increment exp(ω) R in rad first, then the translation in m.
     """
-    model = LENSES[lens]
     vector = np.atleast_2d(vector)[:, None, :]
     turned = object_points @ np.swapaxes(rotation, -1, -2)
     points = turned + translation[:, None, :]
-    inverse_z = 1.0 / points[..., 2]
-    ideal = points[..., :2] * inverse_z[..., None]
-    focal, coefficients = vector[..., :2], vector[..., 4:]
-    distorted = model.distort(ideal, coefficients)
-    by_xy, by_k = model.distort_jacobians(ideal, coefficients)
-
-    p = vector.shape[-1]
-    by_parameters = np.zeros((2, p, *ideal.shape[:-1]))
-    by_point = np.empty((2, 3, *ideal.shape[:-1]))
+    focal = vector[..., :2]
+    image, by_point, by_k = LENSES[lens].project_with_jacobians(points, vector[..., 4:])
+    by_parameters = np.zeros((2, vector.shape[-1], *points.shape[:-1]))
     for axis in range(2):
-        by_parameters[axis, axis] = distorted[..., axis]
+        by_parameters[axis, axis] = image[..., axis]
         by_parameters[axis, 2 + axis] = 1.0
-        scaled = focal[..., axis] * inverse_z
-        for column in range(p - 4):
-            by_parameters[axis, 4 + column] = by_k[..., axis, column] * focal[..., axis]
-        by_point[axis, 0] = by_xy[..., axis, 0] * scaled
-        by_point[axis, 1] = by_xy[..., axis, 1] * scaled
-        by_point[axis, 2] = -(by_point[axis, 0] * ideal[..., 0] + by_point[axis, 1] * ideal[..., 1])
+        np.multiply(by_k[axis], focal[..., axis], out=by_parameters[axis, 4:])
+        by_point[axis] *= focal[..., axis]
     by_pose = np.concatenate([_by_rotation(turned, by_point), by_point], axis=1)
-    pixels = distorted * focal + vector[..., 2:4]
+    pixels = image * focal + vector[..., 2:4]
     return pixels, by_parameters.transpose(2, 3, 0, 1), by_pose.transpose(2, 3, 0, 1)
 
 
@@ -141,53 +149,22 @@ def _by_rotation(turned: Array, by_point: Array) -> Array:
     return out
 
 
-def undistort(intrinsics: Intrinsics, image_points: Array, iterations: int = 50) -> Array:
-    """Return ideal image-plane coordinates (..., 2) of pixels (..., 2): the inverse of the projection.
+def unproject(intrinsics: Intrinsics, image_points: Array) -> Array:
+    """Return directions (..., 3) in the camera frame of pixels (..., 2): the inverse of the projection.
 
-    Newton's method on the lens's own Jacobian, which converges in the image corner where a fixed-point
-    iteration of five steps (OpenCV's default) is up to a pixel off. NaN where the lens does not reach the
-    pixel.
+    Their length is the lens model's choice: one, or such that z is one. NaN where the lens does not reach.
     """
-    model, vector = LENSES[intrinsics.lens], intrinsics.vector
-    wanted = (np.asarray(image_points, dtype=np.float64) - vector[2:4]) / vector[:2]
-    limit = model.monotone_radius(vector[4:])
-    ideal = _inside(wanted, 0.99 * limit)
-    for _ in range(iterations):
-        residual = wanted - model.distort(ideal, vector[4:])
-        if not np.any(np.abs(residual) > 1e-13):
-            break
-        by_xy, _ = model.distort_jacobians(ideal, vector[4:])
-        ideal = _before_fold(ideal, _solve_2x2(by_xy, residual), limit)
-    good = np.linalg.norm(wanted - model.distort(ideal, vector[4:]), axis=-1, keepdims=True) < 1e-9
-    return np.where(good, ideal, np.nan)
+    vector = intrinsics.vector
+    image = (np.asarray(image_points, dtype=np.float64) - vector[2:4]) / vector[:2]
+    return LENSES[intrinsics.lens].unproject(image, vector[4:])
 
 
-def _inside(points: Array, radius: float) -> Array:
-    """Pull points (..., 2) back to a radius."""
-    length = np.linalg.norm(points, axis=-1, keepdims=True)
-    inside: Array = points * np.minimum(1.0, radius / np.maximum(length, 1e-12))
-    return inside
+def reach_share(intrinsics: Intrinsics, points: Array) -> Array:
+    """Return how far out camera-frame points (..., 3) are, as a share (...) of the reach of the lens.
 
-
-def _before_fold(points: Array, step: Array, limit: float) -> Array:
-    """Return points (..., 2) after a step, or half-way to the fold where the step leads beyond it.
-
-    At the fold itself the Jacobian is singular, and an iteration that is put there stays there.
+    From one on, and inf without image, two directions share a pixel: the model says nothing there.
     """
-    moved = points + step
-    length = np.linalg.norm(moved, axis=-1, keepdims=True)
-    beyond = length >= limit
-    if not np.any(beyond):
-        return moved
-    halfway = 0.5 * (np.linalg.norm(points, axis=-1, keepdims=True) + limit)
-    return np.where(beyond, moved * (halfway / np.maximum(length, 1e-12)), moved)
-
-
-def _solve_2x2(matrix: Array, right: Array) -> Array:
-    """Solve (..., 2, 2) systems for (..., 2) by Cramer's rule; singular ones give a zero step."""
-    a, b, c, d = matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 1, 0], matrix[..., 1, 1]
-    determinant = a * d - b * c
-    safe = np.where(np.abs(determinant) < 1e-12, np.inf, determinant)
-    x = (d * right[..., 0] - b * right[..., 1]) / safe
-    y = (a * right[..., 1] - c * right[..., 0]) / safe
-    return np.stack([x, y], axis=-1)
+    lens = LENSES[intrinsics.lens]
+    # A point without image must have an infinite share of an infinite reach, too.
+    share: Array = lens.radius(points) / min(lens.reach(intrinsics.vector[4:]), LARGEST)
+    return share

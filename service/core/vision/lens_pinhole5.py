@@ -7,25 +7,24 @@ import math
 
 import numpy as np
 
+from service.core.vision.perspective import PerspectiveLens
 from service.core.vision.transforms import Array
-
-NAME = "pinhole5"
-COEFFICIENTS = ("k1", "k2", "p1", "p2", "k3")
 
 
 def distort(xy: Array, k: Array) -> Array:
     """Return distorted coordinates (..., 2) of ideal ones (..., 2); k: (5,) or broadcastable (..., 5)."""
     x, y = xy[..., 0], xy[..., 1]
     k1, k2, p1, p2, k3 = (k[..., i] for i in range(5))
-    r2 = x * x + y * y
+    xx, yy, xy2 = x * x, y * y, 2.0 * x * y
+    r2 = xx + yy
     radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
-    xd = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)
-    yd = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y
+    xd = x * radial + p1 * xy2 + p2 * (r2 + 2.0 * xx)
+    yd = y * radial + p1 * (r2 + 2.0 * yy) + p2 * xy2
     return np.stack([xd, yd], axis=-1)
 
 
-def distort_jacobians(xy: Array, k: Array) -> tuple[Array, Array]:
-    """Return derivatives of the distorted point by xy (..., 2, 2) and by the coefficients (..., 2, 5).
+def distort_with_jacobians(xy: Array, k: Array) -> tuple[Array, Array, Array]:
+    """Return the distorted point (..., 2), its derivatives by xy (2, 2, ...) and by k (2, 5, ...).
 
     The components come first in memory, so that each is written in one stroke.
     """
@@ -48,8 +47,10 @@ def distort_jacobians(xy: Array, k: Array) -> tuple[Array, Array]:
     by_k[0, 2] = by_k[1, 3] = xy2
     by_k[0, 3] = r2 + 2.0 * xx
     by_k[1, 2] = r2 + 2.0 * yy
-    last = (*range(2, x.ndim + 2), 0, 1)
-    return by_xy.transpose(last), by_k.transpose(last)
+    distorted = np.empty((*x.shape, 2))
+    distorted[..., 0] = x * radial + p1 * xy2 + p2 * by_k[0, 3]
+    distorted[..., 1] = y * radial + p1 * by_k[1, 2] + p2 * xy2
+    return distorted, by_xy, by_k
 
 
 def monotone_radius(k: Array) -> float:
@@ -78,3 +79,8 @@ def _largest_cubic_root(a: float, b: float, c: float) -> float:
         cosine = -q / (2.0 * radius**3) if radius > 1e-100 else 0.0
         y = 2.0 * radius * math.cos(math.acos(min(1.0, max(-1.0, cosine))) / 3.0)
     return y - a / 3.0
+
+
+LENS = PerspectiveLens(
+    "pinhole5", ("k1", "k2", "p1", "p2", "k3"), distort, distort_with_jacobians, monotone_radius
+)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.calibration_start import blind_start, nominal_start, sweep_starts
-from service.core.vision.camera import Intrinsics
+from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.levenberg_marquardt import Fit, minimise
 from service.core.vision.normal_equations import Estimate
 from service.core.vision.transforms import Array
@@ -36,6 +36,12 @@ class Problem:
     stack: ViewStack
     free: NDArray[np.intp]
     nominal: Intrinsics | None
+
+    @property
+    def firm(self) -> NDArray[np.intp]:
+        """The free parameters that a few corners determine."""
+        weak = [i for i, name in enumerate(parameter_names(self.lens)) if name in LENSES[self.lens].weak]
+        return np.setdiff1d(self.free, weak)
 
     def intrinsics(self, vector: Array) -> Intrinsics:
         """Return the intrinsics of a parameter vector (p,)."""
@@ -94,10 +100,10 @@ def _coarse(problem: Problem, thinned: ViewStack, start: Estimate | None) -> Fit
     if start is None:
         return None
     start = _held(problem, start)
-    direct = minimise(problem.lens, thinned, start, problem.free, iterations=60)
+    direct = minimise(problem.lens, thinned, start, problem.firm, iterations=60)
     if direct and direct.converged:
         return direct
-    through = minimise(problem.lens, thinned, start, problem.free, iterations=60, may_fold=True)
+    through = minimise(problem.lens, thinned, start, problem.firm, iterations=60, may_fold=True)
     return through if through and through.converged else _cheapest([direct, through])
 
 

@@ -61,17 +61,14 @@ class Reduced:
 
 
 def is_feasible(lens: str, estimate: Estimate, object_points: Array, may_fold: bool = False) -> bool:
-    """Whether each board point (v, n, 3) is before the camera and, unless it may fold, before the fold."""
-    focal = estimate.vector[:2]
-    if not (np.all(np.isfinite(estimate.vector)) and focal.min() > 0):
+    """Whether the lens shows each board point (v, n, 3) and, unless it may fold, before the fold."""
+    if not (np.all(np.isfinite(estimate.vector)) and estimate.vector[:2].min() > 0):
         return False
     points = object_points @ np.swapaxes(estimate.rotations, -1, -2) + estimate.translations[:, None, :]
-    z = points[..., 2]
-    if may_fold or not z.min() > 0:
-        return bool(z.min() > 0)
-    radius_sq = (points[..., 0] ** 2 + points[..., 1] ** 2) / (z * z)
-    limit: float = LENSES[lens].monotone_radius(estimate.vector[4:])
-    return bool(radius_sq.max() < limit * limit)
+    model = LENSES[lens]
+    farthest = float(model.radius(points).max())
+    # Written so that NaN is not feasible.
+    return farthest < np.inf and (may_fold or farthest < model.reach(estimate.vector[4:]))
 
 
 def linearise(lens: str, stack: ViewStack, estimate: Estimate, free: NDArray[np.intp]) -> NormalEquations:

@@ -11,8 +11,9 @@ import cv2
 import numpy as np
 
 from service.core.errors import PoseUndetermined
-from service.core.vision.camera import Intrinsics, project_with_jacobians, undistort
+from service.core.vision.camera import LENSES, Intrinsics, project_with_jacobians, unproject
 from service.core.vision.transforms import Array, Pose, angle_between, rotation_matrix, rotation_vector
+from service.core.vision.virtual_view import turn_towards
 
 CORNERS_NEEDED = 4
 ITERATIONS = 30
@@ -43,8 +44,8 @@ def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Ar
     Corners that the lens does not reach are left out. Raises PoseUndetermined for fewer than four usable
     corners or where no pose before the camera explains them.
     """
-    ideal = undistort(intrinsics, image_points)
-    seen = np.all(np.isfinite(ideal), axis=-1)
+    rays = unproject(intrinsics, image_points)
+    seen = np.all(np.isfinite(rays), axis=-1)
     board, pixels = np.asarray(object_points, float)[seen], np.asarray(image_points, float)[seen]
     if len(board) < CORNERS_NEEDED:
         raise PoseUndetermined(
@@ -52,7 +53,7 @@ def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Ar
             "show the target nearer to the middle of the image.",
             corners=len(board),
         )
-    rotations, translations = _closed_form(board, ideal[seen])
+    rotations, translations = _closed_form(board, rays[seen])
     rotations, translations, rms = _refine(intrinsics, rotations, translations, board, pixels)
     order = np.argsort(rms)
     if not np.isfinite(rms[order[0]]):
@@ -67,18 +68,19 @@ def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Ar
     )
 
 
-def _closed_form(board: Array, ideal: Array) -> tuple[Array, Array]:
-    """Return rotations (s, 3, 3), translations (s, 3) of the one or two poses that fit ideal coordinates."""
+def _closed_form(board: Array, rays: Array) -> tuple[Array, Array]:
+    """Return rotations (s, 3, 3), translations (s, 3) of the one or two poses that fit directions (n, 3)."""
+    towards, ideal = turn_towards(rays[None])
     try:
         _, rvecs, tvecs, _ = cv2.solvePnPGeneric(
-            board, ideal, np.eye(3), np.zeros(4), flags=cv2.SOLVEPNP_IPPE
+            board, ideal[0], np.eye(3), np.zeros(4), flags=cv2.SOLVEPNP_IPPE
         )
     except cv2.error as error:
         raise PoseUndetermined("The corners do not span a plane; show the target less edge-on.") from error
     if len(rvecs) == 0:
         raise PoseUndetermined("The corners do not span a plane; show the target less edge-on.")
     turns, shifts = np.array(rvecs, dtype=np.float64), np.array(tvecs, dtype=np.float64)
-    return rotation_matrix(turns[..., 0]), shifts[..., 0]
+    return towards[0].T @ rotation_matrix(turns[..., 0]), shifts[..., 0] @ towards[0]
 
 
 def _refine(
@@ -121,13 +123,14 @@ def _damped_step(information: Array, gradient: Array, damping: Array) -> Array:
 def _normal_equations(
     intrinsics: Intrinsics, rotations: Array, translations: Array, board: Array, pixels: Array
 ) -> tuple[Array, Array, Array]:
-    """Return squared errors (s,), gradients (s, 6), information (s, 6, 6); inf for a corner behind."""
+    """Return squared errors (s,), gradients (s, 6), information (s, 6, 6); inf where one is not shown."""
     projected, _, by_pose = project_with_jacobians(
         intrinsics.lens, intrinsics.vector, rotations, translations, board
     )
     J = by_pose.reshape(len(rotations), -1, 6)
     error = (pixels - projected).reshape(len(rotations), -1)
-    depth = board @ np.swapaxes(rotations, -1, -2)[..., 2:] + translations[:, None, 2:]
-    cost = np.where(depth[..., 0].min(axis=1) > 0, np.sum(error * error, axis=1), np.inf)
+    points = board @ np.swapaxes(rotations, -1, -2) + translations[:, None]
+    shown = LENSES[intrinsics.lens].radius(points).max(axis=1) < np.inf
+    cost = np.where(shown, np.sum(error * error, axis=1), np.inf)
     Jt = np.swapaxes(J, -1, -2)
     return cost, (Jt @ error[..., None])[..., 0], Jt @ J

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from service.core.vision.camera import LENSES, Intrinsics, project_with_jacobians, undistort
+from service.core.vision.camera import Intrinsics, project_with_jacobians, reach_share, unproject
 from service.core.vision.transforms import Array, rotation_matrix
 
 GRID = (12, 8)
@@ -77,11 +77,10 @@ def compensated_jacobian(intrinsics: Intrinsics, grid: Array) -> Array:
 
     The best rotation of all pixels together is taken out. NaN for pixels that the lens does not reach.
     """
-    ideal = undistort(intrinsics, grid)
-    reached = np.all(np.isfinite(ideal), axis=-1)
-    rays = np.concatenate([ideal[reached], np.ones((int(reached.sum()), 1))], axis=-1)
+    rays = unproject(intrinsics, grid)
+    reached = np.all(np.isfinite(rays), axis=-1)
     _, by_parameters, by_pose = project_with_jacobians(
-        intrinsics.lens, intrinsics.vector, np.eye(3)[None], np.zeros((1, 3)), rays
+        intrinsics.lens, intrinsics.vector, np.eye(3)[None], np.zeros((1, 3)), rays[reached]
     )
     p = by_parameters.shape[-1]
     A, B = by_parameters.reshape(-1, p), by_pose[..., :3].reshape(-1, 3)
@@ -97,14 +96,11 @@ def mapping_difference(a: Intrinsics, b: Intrinsics, grid: Region | Array) -> Ar
     grid: a region or pixels (m, 2) of a. NaN for pixels that a lens does not reach.
     """
     pixels = grid.grid(*GRID) if isinstance(grid, Region) else grid
-    ideal = undistort(a, pixels)
-    limit = LENSES[b.lens].monotone_radius(b.vector[4:])
-    reached = np.all(np.isfinite(ideal), axis=-1)
-    reached[reached] = np.linalg.norm(ideal[reached], axis=-1) < limit
+    rays = unproject(a, pixels)
+    reached = reach_share(b, rays) < 1.0
     out = np.full(len(pixels), np.nan)
     if np.count_nonzero(reached) >= 2:
-        rays = np.concatenate([ideal[reached], np.ones((int(reached.sum()), 1))], axis=-1)
-        out[reached] = np.linalg.norm(_best_turned(b, rays, pixels[reached]), axis=-1)
+        out[reached] = np.linalg.norm(_best_turned(b, rays[reached], pixels[reached]), axis=-1)
     return out
 
 

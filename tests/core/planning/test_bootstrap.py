@@ -77,3 +77,9 @@ def test_a_data_sheet_gives_square_pixels_unless_it_says_otherwise() -> None:
 def test_a_view_that_no_pinhole_has_is_refused() -> None:
     with pytest.raises(IntrinsicsInvalid, match="190 degrees"):
         nominal_of_data_sheet("pinhole5", (1280, 800), 190.0)
+
+
+def test_the_image_of_a_fisheye_grows_with_the_angle() -> None:
+    camera = nominal_of_data_sheet("kannala_brandt4", (1280, 800), 190.0)
+    assert camera.parameters["fx"] == pytest.approx(640.0 / np.radians(95.0))
+    assert nominal_of_data_sheet("rational8", (1280, 800), 90.0).parameters["fx"] == pytest.approx(640.0)

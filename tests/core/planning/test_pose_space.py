@@ -108,6 +108,19 @@ def test_no_board_reaches_beyond_where_the_lens_folds() -> None:
     assert radius.max() < np.sqrt(1.0 / (3.0 * 0.4))
 
 
+def test_of_an_all_round_fisheye_boards_stay_where_a_hand_can_be_led() -> None:
+    fisheye = Intrinsics.from_parameters(
+        "kannala_brandt4", {"fx": 431.0, "fy": 431.0, "cx": 639.5, "cy": 399.5, "k1": 0.01}, (1280, 800)
+    )
+    poses = sample_poses(replace(SPACE, distance_m=(0.15, 0.6)), fisheye, BOARD, 200, seed=3)
+    centres = poses.centres(BOARD)
+    aside = np.degrees(np.arctan2(np.linalg.norm(centres[:, :2], axis=1), centres[:, 2]))
+    assert 55.0 < aside.max() <= 62.0
+    corners = BOARD.object_points @ np.swapaxes(poses.rotations, 1, 2) + poses.translations[:, None]
+    farthest = np.arctan2(np.linalg.norm(corners[..., :2], axis=-1), corners[..., 2]).max()
+    assert np.degrees(farthest) > 75.0
+
+
 def test_a_board_behind_the_camera_breaks_the_margin() -> None:
     behind = Poses(np.eye(3)[None], np.array([[0.0, 0.0, -0.5]]))
     assert infeasibilities(SPACE, LENS1, BOARD, behind)["image_margin_px"].all()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from service.core.errors import TooFewViews
-from service.core.quality.evidence import Expectation, Refusal
+from service.core.quality.evidence import Expectation, NamedDetection, Refusal
 from service.core.quality.gates import Verdict
 from service.core.quality.gates_poses import nearest_views
 from service.core.quality.limits import Limits
@@ -25,6 +25,7 @@ from tests.core.quality.seen_views import (
     see_poses,
     with_sharpness,
 )
+from tests.core.vision.cameras import ALL_ROUND, views_of
 
 EVERY_POSE = Expectation(NOMINAL, poses=POSES)
 
@@ -105,6 +106,37 @@ def test_a_lens_that_the_model_does_not_describe_is_called_so() -> None:
     assert found.verdict is Verdict.FAIL
     assert "lens model pinhole5" in found.advice
     assert (found.reason, found.facts) == (Reason.RMS_OTHER_LENS, {"lens": "pinhole5"})
+
+
+def views_all_round() -> list[NamedDetection]:
+    """Return what a fisheye sees of boards all about it, some of them beside it."""
+    views = views_of(ALL_ROUND, 16, seed=11)
+    return [see(view.image_points, f"{i}.png", ALL_ROUND.image_size) for i, view in enumerate(views)]
+
+
+def test_boards_beside_a_fisheye_face_it_and_its_model_holds() -> None:
+    judged = calibrate_and_judge(views_all_round(), BOARD, "kannala_brandt4")
+    axis = [float(pose.rotation[2, 2]) for pose in judged.result.poses]
+    assert min(axis) < -0.3  # along the axis one shows its back, along the line of sight none
+    for name in ("facing", "nearest_corner", "converged", "monotone_ratio", "rms_px"):
+        assert measured(judged, name).verdict is not Verdict.FAIL, name
+
+
+def test_a_mirrored_picture_of_a_fisheye_shows_the_back_of_the_board() -> None:
+    views = views_all_round()
+    points = views[3].detection.image_points.reshape(BOARD.rows, BOARD.columns, 2)[:, ::-1].reshape(-1, 2)
+    views[3] = see(points, "mirrored.png", ALL_ROUND.image_size)
+    found = measured(calibrate_and_judge(views, BOARD, "kannala_brandt4"), "facing")
+    assert found.verdict is Verdict.FAIL
+    assert "mirrored.png" in found.advice
+
+
+def test_a_fisheye_is_too_much_for_five_coefficients_and_the_advice_names_its_model() -> None:
+    judged = calibrate_and_judge(views_all_round(), BOARD, "pinhole5")
+    assert judged.verdict is Verdict.FAIL
+    found = measured(judged, "monotone_ratio")
+    assert found.verdict is Verdict.FAIL
+    assert "kannala_brandt4" in found.advice
 
 
 def test_a_blurred_view_is_named() -> None:

@@ -14,21 +14,36 @@ from service.core.vision.camera import (
     project,
     project_camera_points,
     project_with_jacobians,
-    undistort,
+    reach_share,
+    unproject,
 )
-from service.core.vision.transforms import rotation_matrix
+from service.core.vision.transforms import rotation_matrix, rotation_vector
 from service.core.vision.uncertainty import whole_image
-from tests.core.vision.cameras import BOARD, LENS1, WIDE, board_poses
+from tests.core.vision.cameras import ALL_ROUND, BOARD, FISHEYE, LENS1, RATIONAL, WIDE, board_poses
 
-CAMERAS = [LENS1, WIDE]
+CAMERAS = [LENS1, WIDE, RATIONAL, FISHEYE, ALL_ROUND]
+PERSPECTIVE = [LENS1, WIDE, RATIONAL]
 
 
-@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("camera", PERSPECTIVE)
 def test_projection_is_opencvs(camera: Intrinsics) -> None:
     rotations, translations = board_poses(camera, 5, seed=1)
     for R, t in zip(rotations, translations, strict=True):
         expected, _ = cv2.projectPoints(BOARD.object_points, R, t, camera.camera_matrix, camera.dist_coeffs)
         np.testing.assert_allclose(project(camera, R, t, BOARD.object_points), expected[:, 0], atol=1e-9)
+
+
+@pytest.mark.parametrize("camera", [FISHEYE, ALL_ROUND])
+def test_fisheye_projection_is_opencvs(camera: Intrinsics) -> None:
+    rotations, translations = board_poses(camera, 5, seed=1)
+    for R, t in zip(rotations, translations, strict=True):
+        before = (BOARD.object_points @ R.T + t)[:, 2] > 0.001  # OpenCV's stops at 90 degrees
+        assert np.any(before)
+        points = BOARD.object_points[before][:, None]
+        expected, _ = cv2.fisheye.projectPoints(
+            points, rotation_vector(R), t, camera.camera_matrix, camera.dist_coeffs
+        )
+        np.testing.assert_allclose(project(camera, R, t, points[:, 0]), expected[:, 0], atol=1e-9)
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
@@ -42,8 +57,8 @@ def test_projection_with_jacobians_gives_the_same_pixels(camera: Intrinsics) -> 
 def test_the_derivatives_by_the_parameters_are_the_finite_differences(camera: Intrinsics) -> None:
     R, t = board_poses(camera, 3, seed=3)
     _, analytic, _ = project_with_jacobians(camera.lens, camera.vector, R, t, BOARD.object_points)
-    for i, step in enumerate([1e-2] * 4 + [1e-5] * 5):
-        delta = np.zeros(9)
+    for i, step in enumerate([1e-2] * 4 + [1e-5] * len(camera.dist_coeffs)):
+        delta = np.zeros(len(camera.vector))
         delta[i] = step
         ahead, behind = (
             project(Intrinsics.from_vector(camera.lens, v, camera.image_size), R, t, BOARD.object_points)
@@ -68,31 +83,38 @@ def test_the_derivatives_by_the_pose_are_the_finite_differences(camera: Intrinsi
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
-def test_undistort_inverts_the_projection_all_over_the_image(camera: Intrinsics) -> None:
+def test_unproject_inverts_the_projection_all_over_the_image(camera: Intrinsics) -> None:
     pixels = whole_image(camera.image_size).grid(33, 21)
-    ideal = undistort(camera, pixels)
-    rays = np.concatenate([ideal, np.ones((len(ideal), 1))], axis=-1)
+    rays = unproject(camera, pixels)
     assert np.abs(project_camera_points(camera, rays) - pixels).max() < 1e-8
+    assert np.all(reach_share(camera, rays) < 1.0)
 
 
-def test_undistort_converges_in_the_image_corner_where_opencvs_default_does_not() -> None:
+def test_unproject_converges_in_the_image_corner_where_opencvs_default_does_not() -> None:
     corner = np.array([[WIDE.image_size[0] - 1.0, WIDE.image_size[1] - 1.0]])
     opencv = cv2.undistortPoints(corner, WIDE.camera_matrix, WIDE.dist_coeffs)[:, 0]
 
-    def miss(ideal: np.ndarray) -> float:
-        return float(np.linalg.norm(project_camera_points(WIDE, np.array([*ideal[0], 1.0])) - corner[0]))
+    def miss(ray: np.ndarray) -> float:
+        return float(np.linalg.norm(project_camera_points(WIDE, ray) - corner[0]))
 
-    assert miss(opencv) > 0.5
-    assert miss(undistort(WIDE, corner)) < 1e-8
+    assert miss(np.array([*opencv[0], 1.0])) > 0.5
+    assert miss(unproject(WIDE, corner)[0]) < 1e-8
 
 
-def test_undistort_says_where_the_lens_does_not_reach() -> None:
+@pytest.mark.parametrize("lens", ["pinhole5", "rational8", "kannala_brandt4"])
+def test_unproject_says_where_the_lens_does_not_reach(lens: str) -> None:
     folding = Intrinsics.from_parameters(
-        "pinhole5", {"fx": 600, "fy": 600, "cx": 640, "cy": 400, "k1": -0.3}, (1280, 800)
+        lens, {"fx": 600, "fy": 600, "cx": 640, "cy": 400, "k1": -0.3}, (1280, 800)
     )
-    ideal = undistort(folding, np.array([[640.0, 400.0], [0.0, 0.0]]))
-    assert np.all(np.isfinite(ideal[0]))
-    assert np.all(np.isnan(ideal[1]))
+    rays = unproject(folding, np.array([[640.0, 400.0], [0.0, 0.0]]))
+    assert np.all(np.isfinite(rays[0]))
+    assert np.all(np.isnan(rays[1]))
+
+
+def test_a_fisheye_looks_behind_itself() -> None:
+    rays = unproject(ALL_ROUND, np.array([[0.0, 0.0], [645.1, 395.7]]))
+    assert np.degrees(np.arccos(rays[0, 2])) > 100.0
+    np.testing.assert_allclose(rays[1], [0.0, 0.0, 1.0], atol=1e-15)
 
 
 @settings(max_examples=60, deadline=None)
@@ -110,9 +132,9 @@ def test_a_direction_before_the_fold_comes_back_from_its_pixel(
     k = np.array([k1, k2, *p, k3])
     camera = Intrinsics.from_vector("pinhole5", np.r_[900.0, 905.0, 640.0, 400.0, k], (1280, 800))
     radius = share * min(lens_pinhole5.monotone_radius(k), 1.5)
-    ideal = radius * np.array([np.cos(angle), np.sin(angle)])
-    pixel = project_camera_points(camera, np.array([*ideal, 1.0]))
-    np.testing.assert_allclose(undistort(camera, pixel), ideal, atol=1e-6)
+    ray = np.array([radius * np.cos(angle), radius * np.sin(angle), 1.0])
+    pixel = project_camera_points(camera, ray)
+    np.testing.assert_allclose(unproject(camera, pixel), ray, atol=1e-6)
 
 
 @settings(max_examples=80, deadline=None)
@@ -131,6 +153,7 @@ def test_the_distorted_radius_grows_up_to_the_monotone_radius_and_not_beyond(
 
 def test_points_behind_the_camera_have_no_pixel() -> None:
     assert np.all(np.isnan(project_camera_points(LENS1, np.array([0.1, 0.1, -1.0]))))
+    assert np.isinf(reach_share(LENS1, np.array([0.1, 0.1, -1.0])))
 
 
 def test_parameters_come_back_from_their_names_and_their_vector() -> None:

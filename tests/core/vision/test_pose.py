@@ -8,7 +8,7 @@ from service.core.errors import PoseUndetermined
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.pose import estimate_pose
 from service.core.vision.transforms import Array, angle_between, rotation_matrix
-from tests.core.vision.cameras import BOARD, LENS1, WIDE, board_poses
+from tests.core.vision.cameras import ALL_ROUND, BOARD, FISHEYE, LENS1, RATIONAL, WIDE, board_poses
 
 
 def tilted(degrees: float, depth: float) -> tuple[Array, Array]:
@@ -16,7 +16,7 @@ def tilted(degrees: float, depth: float) -> tuple[Array, Array]:
     return R, np.array([0.02, 0.01, depth]) - R @ BOARD.centre
 
 
-@pytest.mark.parametrize("camera", [LENS1, WIDE])
+@pytest.mark.parametrize("camera", [LENS1, WIDE, RATIONAL, FISHEYE, ALL_ROUND])
 def test_a_pose_comes_back_exactly_from_exact_corners(camera: Intrinsics) -> None:
     for R, t in zip(*board_poses(camera, 10, seed=1), strict=True):
         estimate = estimate_pose(camera, BOARD.object_points, project(camera, R, t, BOARD.object_points))

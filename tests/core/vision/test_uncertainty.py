@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from service.core.vision.calibration import calibrate_intrinsics
-from service.core.vision.camera import Intrinsics, project_camera_points, undistort
+from service.core.vision.camera import Intrinsics, project_camera_points, unproject
 from service.core.vision.transforms import rotation_matrix
 from service.core.vision.uncertainty import (
     Region,
@@ -44,8 +44,7 @@ def test_the_rotation_that_is_taken_out_is_the_best_one() -> None:
     other = changed(LENS1, np.array([3.0, 2.0, 5.0, -4.0, 0.01, -0.02, 1e-3, -1e-3, 0.01]))
     grid = MIDDLE.grid(12, 8)
     best = float(np.mean(mapping_difference(LENS1, other, grid) ** 2))
-    ideal = undistort(LENS1, grid)
-    rays = np.concatenate([ideal, np.ones((len(ideal), 1))], axis=-1)
+    rays = unproject(LENS1, grid)
     rng = np.random.default_rng(4)
     around = np.array([-4.0 / 1350, -5.0 / 1350, 0.0])
     for rvec in around + 2e-3 * rng.standard_normal((200, 3)):

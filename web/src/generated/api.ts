@@ -591,7 +591,7 @@ export interface SkuDocument {
   code: string;
   name: string;
   /** Lens model. */
-  lens: "pinhole5";
+  lens: "pinhole5" | "rational8" | "kannala_brandt4";
   /** Width and height, px. */
   image_size: [number, number];
   /** Nominal intrinsics: fx fy cx cy, and coefficients; without it, give a data_sheet. */

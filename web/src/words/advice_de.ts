@@ -9,7 +9,7 @@ const QUADRANTS: Readonly<Record<string, string>> = {
   "bottom-left": "unten links",
 };
 const UNDETERMINED =
-  "Die Ansichten bestimmen diese Kamera nicht, oder das Linsenmodell passt nicht zu ihr: andere Ansichten mit gekipptem Target aufnehmen oder ein anderes Linsenmodell wählen.";
+  "Die Ansichten bestimmen diese Kamera nicht, oder das Linsenmodell passt nicht zu ihr: andere Ansichten mit gekipptem Target aufnehmen, Koeffizienten festhalten, die diese Linse nicht braucht, oder ein anderes Linsenmodell wählen.";
 const MORE_TILT =
   "Ansichten hinzufügen, in denen das Target zu beiden Seiten gekippt und nahe an der Kamera ist";
 
@@ -108,7 +108,7 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     good: "Target, Linsenmodell und Ecken passen zusammen.",
     bad: "Die Ecken passen nicht zum Modell.",
     remedy: ({ fact }: About) =>
-      `Die Residuen wiederholen sich mit dem Abstand von der Bildmitte; das Linsenmodell ${fact("lens")} beschreibt diese Linse also nicht (ein Fischauge oder eine sehr weite Linse?). Ein anderes Linsenmodell wählen.`,
+      `Die Residuen wiederholen sich mit dem Abstand von der Bildmitte; das Linsenmodell ${fact("lens")} beschreibt diese Linse also nicht (ein Fischauge oder eine sehr weite Linse?). Ein anderes Linsenmodell wählen: rational8 für eine weite Linse, kannala_brandt4 für ein Fischauge.`,
   },
   smallest_rms_px: {
     good: "Die Residuen sind so groß, wie echte Ecken sie machen.",
@@ -163,7 +163,7 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     good: "Die Verzeichnung wächst stetig bis über die fernste Ecke hinaus.",
     bad: "Die Verzeichnung faltet sich im Bild zurück, sodass zwei Richtungen ein Pixel teilen.",
     remedy:
-      "Die Linse ist weiter, als dieses Linsenmodell beschreiben kann, oder nahe am Rand wurde keine Ecke gesehen: ein anderes Linsenmodell wählen oder Ansichten mit dem Target in den Bildecken hinzufügen.",
+      "Die Linse ist weiter, als dieses Linsenmodell beschreiben kann, oder nahe am Rand wurde keine Ecke gesehen: Ansichten mit dem Target in den Bildecken hinzufügen. Ein anderes Linsenmodell wählen: rational8 für eine weite Linse, kannala_brandt4 für ein Fischauge.",
   },
   square_pixels: {
     good: "fx und fy stehen im Verhältnis, das die Pixel ihnen geben.",

@@ -95,7 +95,7 @@ export const adviceEn = {
     good: "Board, lens model and corners agree.",
     bad: "The corners do not fit the model.",
     remedy: ({ fact }: About) =>
-      `The residuals repeat with the distance from the image centre, so the lens model ${fact("lens")} does not describe this lens (a fisheye or a very wide lens?). Choose another lens model.`,
+      `The residuals repeat with the distance from the image centre, so the lens model ${fact("lens")} does not describe this lens (a fisheye or a very wide lens?). Choose another lens model: rational8 for a wide lens, kannala_brandt4 for a fisheye.`,
   },
   smallest_rms_px: {
     good: "The residuals are as large as real corners make them.",
@@ -141,19 +141,19 @@ export const adviceEn = {
     good: "The solver proved that it reached the optimum.",
     bad: "The solver did not reach one optimum from every start.",
     remedy:
-      "The views do not determine this camera, or the lens model does not suit it: take other views, with the board tilted, or choose another lens model.",
+      "The views do not determine this camera, or the lens model does not suit it: take other views, with the board tilted, fix the coefficients that this lens does not need, or choose another lens model.",
   },
   agreement_px: {
     good: "All starts of the solver lead to the same camera.",
     bad: "Different starts of the solver lead to different cameras.",
     remedy:
-      "The views do not determine this camera, or the lens model does not suit it: take other views, with the board tilted, or choose another lens model.",
+      "The views do not determine this camera, or the lens model does not suit it: take other views, with the board tilted, fix the coefficients that this lens does not need, or choose another lens model.",
   },
   monotone_ratio: {
     good: "The distortion grows steadily beyond the farthest corner.",
     bad: "The distortion folds back inside the image, so that two directions share a pixel.",
     remedy:
-      "The lens is wider than this lens model can describe, or no corner was seen near the border: choose another lens model, or add views with the board in the corners of the image.",
+      "The lens is wider than this lens model can describe, or no corner was seen near the border: add views with the board in the corners of the image. Choose another lens model: rational8 for a wide lens, kannala_brandt4 for a fisheye.",
   },
   square_pixels: {
     good: "fx and fy are in the ratio that the pixels give them.",

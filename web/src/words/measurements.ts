@@ -7,7 +7,7 @@ type Name = Record<Language, string>;
 const NAMES: Readonly<Record<string, Name>> = {
   wrong_target: { en: "Images of another board", de: "Bilder eines anderen Targets" },
   refused_images: { en: "Refused images", de: "Abgelehnte Bilder" },
-  facing: { en: "Facing the camera (R33)", de: "Der Kamera zugewandt (R33)" },
+  facing: { en: "Facing the camera (cosine)", de: "Der Kamera zugewandt (Kosinus)" },
   nearest_corner: { en: "Nearest corner in front", de: "Nächste Ecke vor der Kamera" },
   parity_separation: { en: "Black and white apart", de: "Abstand Schwarz–Weiß" },
   contrast: { en: "Contrast", de: "Kontrast" },
