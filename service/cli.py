@@ -38,6 +38,7 @@ from service.usecases.folder_calibration import calibrate_folder
 from service.usecases.folder_report import report_document, report_text
 from service.usecases.paging import PageRequest
 from service.usecases.plan_report import plan_text
+from service.usecases.pose_set_document import pose_set_document
 from service.usecases.sku_file import read_sku_file
 from service.usecases.text import Label
 
@@ -141,7 +142,7 @@ def _plan(arguments: argparse.Namespace) -> int:
         fixed=revision.fixed,
         zone=revision.working_zone,
     )
-    document = _to_json({"sku": revision.code, "target": revision.target.spec, **pose_set_to_dict(pose_set)})
+    document = _to_json(pose_set_document(revision, None, pose_set_to_dict(pose_set)))
     if arguments.out is not None:
         _write(arguments.out, document)
     if arguments.json:
