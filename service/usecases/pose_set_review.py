@@ -20,9 +20,9 @@ from service.core.planning.pose_space import Poses
 from service.core.planning.prediction import free_parameters, predict_accuracy
 from service.core.planning.review import PoseReview, losses_without, review_poses
 from service.core.quality.coverage import covered_share, default_valid_region, default_working_zone
-from service.core.vision.camera import project
+from service.core.vision.camera import Intrinsics, project, undistort
 from service.core.vision.transforms import Array, stack_poses
-from service.core.vision.uncertainty import Region, mapping_error, parameter_metric
+from service.core.vision.uncertainty import Region, mapping_error, parameter_metric, whole_image
 from service.storage.models import PoseSetRow, SkuRevisionRow, SkuRow
 from service.usecases.observation import number_or_null
 from service.usecases.pose_sets import get_pose_set
@@ -94,6 +94,7 @@ class PoseSetReview:
     image_size: tuple[int, int]
     target: BoardView
     nominal: dict[str, float]
+    corner_rays: list[list[float]] | None
     sigma_px: list[float]
     sd: dict[str, float]
     poses: list[ReviewedPose]
@@ -133,6 +134,7 @@ def review_pose_set(session: Session, pose_set_id: UUID) -> PoseSetReview:
         image_size=size,
         target=BoardView(target.spec, target.columns, target.rows, target.square_m),
         nominal=revision.intrinsics.parameters,
+        corner_rays=_corner_rays(revision.intrinsics),
         sigma_px=promise.sigma_px.tolist(),
         sd=promise.sd,
         poses=_poses(revision, promise, working),
@@ -151,6 +153,15 @@ def _promise(row: PoseSetRow, revision: Revision, zone: Region) -> _Promise:
         revision.intrinsics, revision.target, poses, sigma, zone, fixed=revision.fixed
     )
     return _Promise(poses, sigma, prediction.covariance, prediction.sd)
+
+
+def _corner_rays(intrinsics: Intrinsics) -> list[list[float]] | None:
+    """Return the rays (x, y, 1) of the image's corners from top left clockwise; None beyond the lens."""
+    top_left, top_right, bottom_left, bottom_right = undistort(
+        intrinsics, whole_image(intrinsics.image_size).grid(2, 2)
+    )
+    ideal = np.stack([top_left, top_right, bottom_right, bottom_left])
+    return [[float(x), float(y), 1.0] for x, y in ideal] if np.all(np.isfinite(ideal)) else None
 
 
 def _noise(row: PoseSetRow, revision: Revision) -> float | Sequence[float]:

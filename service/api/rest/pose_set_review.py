@@ -85,6 +85,9 @@ class PoseSetReview(Answer):
     image_size: tuple[int, int]
     target: ReviewTarget
     nominal: dict[str, float]
+    corner_rays: list[Point3] | None = Field(
+        description="Rays of the image's corners, tl, tr, br, bl, depth 1; null beyond the lens's reach."
+    )
     sigma_px: list[float] = Field(description="Corner noise of each pose that all predictions here rest on.")
     sd: dict[str, float] = Field(description="Expected standard deviation by parameter; 0 for fixed ones.")
     poses: list[ReviewedPose]

@@ -39,6 +39,9 @@ def test_a_review_explains_each_pose_and_the_image(plant: Plant) -> None:
         assert pose["smallest_square_px"] >= 14
         assert pose["loss_share"] > 0
     assert review["sd"] == pytest.approx(found["prediction"]["sd"], rel=1e-9)
+    (left, top, depth), _, (right, bottom, _), _ = review["corner_rays"]
+    assert left < -320 / 675 < 320 / 675 < right  # a barrel sees more than its focal length tells
+    assert (top < 0 < bottom, depth) == (True, 1.0)
     maps = review["maps"]
     assert (maps["columns"], maps["rows"]) == (40, 25)
     for name in ("sd_px", "sd_mdeg", "boards", "corners"):

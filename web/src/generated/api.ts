@@ -337,6 +337,8 @@ export interface PoseSetReview {
   image_size: [number, number];
   target: ReviewTarget;
   nominal: Record<string, number>;
+  /** Rays of the image's corners, tl, tr, br, bl, at depth 1; null where the lens does not reach. */
+  corner_rays: [number, number, number][] | null;
   /** Corner noise of each pose that all predictions here rest on. */
   sigma_px: number[];
   /** Expected standard deviation by parameter; 0 for fixed ones. */
