@@ -57,10 +57,10 @@ export function standpoint(view: View, depth: number): { from: Vector; at: Vecto
       // A little behind the camera, so that its own frame is seen.
       return { from: scaled([0, 0, 0.35]), at };
     case "side":
-      return { from: scaled([1.75, 0.02, -0.5]), at };
+      return { from: scaled([1.45, 0.02, -0.5]), at };
     case "above":
       // Not straight from above: then up would have no direction.
-      return { from: scaled([0, 1.75, -0.5]), at };
+      return { from: scaled([0, 1.5, -0.5]), at };
   }
 }
 

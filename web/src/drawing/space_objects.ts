@@ -192,7 +192,7 @@ export function distancesOf(
     const tick = 0.012 * depth;
     const ends: Vector[] = [toDrawing([-tick, 0, metres]), toDrawing([tick, 0, metres])];
     group.add(new Line(geometryOf(ends), new LineBasicMaterial({ color: ink("plot-axis") })));
-    group.add(wordSprite(name(metres), textInk, toDrawing([0, 3 * tick, metres]), 1.9));
+    group.add(wordSprite(name(metres), textInk, toDrawing([0, 3 * tick, metres])));
   }
   return group;
 }
