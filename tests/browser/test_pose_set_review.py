@@ -170,7 +170,7 @@ def test_figures_and_maps_are_the_services(page: Page, sets: Sets, watch: Watch,
     review = sets.customer.ask("GET", f"/pose-sets/{sets.planned['id']}/review")
     go(page, sets, f"pose-sets/{sets.planned['id']}")
 
-    figures = page.get_by_role("region", name="Predicted accuracy").first
+    figures = page.get_by_role("region", name="At a glance")
     expect(figures).to_contain_text(f"{review['working_zone']['mean_px']:.4f} px")
     expect(figures).to_contain_text("9 would do")
     losses = [pose["loss_share"] for pose in review["poses"]]

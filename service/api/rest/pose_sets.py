@@ -37,7 +37,7 @@ class PoseShape(Request):
     tvec: Vector3
 
 
-class Origin(BaseModel):
+class PoseSetOrigin(BaseModel):
     """How a set was made where it comes from; what else stands there is not kept."""
 
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
@@ -71,7 +71,9 @@ class NewPoseSet(Request):
     prediction: dict[str, JsonValue] | None = Field(
         default=None, description="Of an exported set; worked out anew for this SKU."
     )
-    provenance: Origin | None = Field(default=None, description="How the set was made where it comes from.")
+    provenance: PoseSetOrigin | None = Field(
+        default=None, description="How the set was made where it comes from."
+    )
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"seed": 1, "candidates": 3000}]})
 

@@ -113,6 +113,7 @@ function origin(set: PoseSet, say: Words): Fact[] {
 function provenanceText(value: unknown): string {
   if (typeof value === "string") return value;
   if (typeof value === "number") return plain(value);
+  if (Array.isArray(value)) return value.map(provenanceText).join(", ");
   if (typeof value !== "object" || value === null) return JSON.stringify(value);
   return Object.entries(value)
     .map(([name, part]) => `${provenanceName(name, words.value)} ${provenanceText(part)}`)

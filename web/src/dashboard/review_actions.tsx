@@ -25,10 +25,11 @@ export function ReviewActions({ set, onChange }: Props): JSX.Element {
       const { name, content } = await exportPoseSet(set.id);
       saveFile(name, content);
     });
+  const isPlanned = set.poses.length > 0;
   const leave = (): void => setAsked(null);
   return (
     <div class="review-actions">
-      {set.state === "draft" && (
+      {set.state === "draft" && isPlanned && (
         <button type="button" class="primary" disabled={action.isBusy} onClick={() => setAsked("publish")}>
           {say.review_publish}
         </button>
@@ -38,9 +39,11 @@ export function ReviewActions({ set, onChange }: Props): JSX.Element {
           {say.review_retire}
         </button>
       )}
-      <button type="button" disabled={action.isBusy} onClick={download}>
-        {say.review_download}
-      </button>
+      {isPlanned && (
+        <button type="button" disabled={action.isBusy} onClick={download}>
+          {say.review_download}
+        </button>
+      )}
       {action.problem !== null && <ProblemNotice problem={action.problem} />}
       {asked === "publish" && (
         <QuestionBox

@@ -2,14 +2,14 @@
 import { type JSX } from "preact";
 import { useMemo, useState } from "preact/hooks";
 import { boundOutlines } from "../drawing/pose_outlines";
-import type { PoseSet, PoseSetReview } from "../generated/api";
+import type { PoseSet, PoseSetReview, PoseSetSummary } from "../generated/api";
 import { when } from "../format/times";
 import { words } from "../words/language";
 import { CompareTable } from "./compare_table";
 import { CountPanel } from "./count_panel";
 import { CoveragePanel, ErrorPanel } from "./heat_panels";
 import { PoseSetPicture } from "./pose_set_picture";
-import { Publishing } from "./review_head";
+import { CompareChoice, Publishing } from "./review_head";
 import { addressOf } from "./route";
 
 export interface Side {
@@ -19,7 +19,14 @@ export interface Side {
 
 const NAMES = ["A", "B"] as const;
 
-export function ReviewComparison({ a, b }: { a: Side; b: Side }): JSX.Element {
+interface Props {
+  a: Side;
+  b: Side;
+  /** Sets of the SKU that the first one can be compared with. */
+  others: readonly PoseSetSummary[];
+}
+
+export function ReviewComparison({ a, b, others }: Props): JSX.Element {
   const say = words.value;
   const reviews = useMemo(() => [a.review, b.review], [a.review, b.review]);
   const sets = useMemo(
@@ -35,6 +42,7 @@ export function ReviewComparison({ a, b }: { a: Side; b: Side }): JSX.Element {
         <h1>
           {say.compare_title} · {a.set.sku.code}
         </h1>
+        <CompareChoice id={a.set.id} others={others} chosen={b.set.id} />
         <nav class="page-links" aria-label={say.compare_title}>
           <a href={addressOf({ page: "poseSet", id: b.set.id, with: a.set.id })}>B ⇄ A</a>
           <a href={addressOf({ page: "poseSet", id: a.set.id, with: "" })}>{say.compare_end}</a>

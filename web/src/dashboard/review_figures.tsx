@@ -17,7 +17,7 @@ interface Figure {
 export function ReviewFigures({ set, review }: { set: PoseSet; review: PoseSetReview }): JSX.Element {
   const say = words.value;
   return (
-    <section class="panel figures review-figures" aria-label={say.prediction_title}>
+    <section class="panel figures review-figures" aria-label={say.review_figures}>
       {figuresOf(set, review, say).map(({ name, value, note, holds }) => (
         <div key={name}>
           <span class="figure-name">{name}</span>

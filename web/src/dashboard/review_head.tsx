@@ -36,7 +36,7 @@ export function ReviewHead({ set, others, onChange }: Props): JSX.Element {
       </div>
       <div class="review-bar">
         <ReviewActions set={set} onChange={onChange} />
-        <CompareChoice set={set} others={others} />
+        <CompareChoice id={set.id} others={others} chosen="" />
       </div>
     </>
   );
@@ -63,18 +63,26 @@ function historyOf(set: PoseSet, say: Words): string[] {
   ];
 }
 
-function CompareChoice({ set, others }: { set: PoseSet; others: readonly PoseSetSummary[] }): JSX.Element {
+interface ChoiceProps {
+  /** The set that is compared. */
+  id: string;
+  others: readonly PoseSetSummary[];
+  /** The set it is compared with now; empty for none. */
+  chosen: string;
+}
+
+export function CompareChoice({ id, others, chosen }: ChoiceProps): JSX.Element {
   const say = words.value;
-  const id = useId();
+  const field = useId();
   const compare = (other: string): void => {
-    window.location.hash = addressOf({ page: "poseSet", id: set.id, with: other });
+    window.location.hash = addressOf({ page: "poseSet", id, with: other });
   };
   return (
     <span class="choice">
-      <label for={id}>{say.compare_with}</label>
+      <label for={field}>{say.compare_with}</label>
       <select
-        id={id}
-        value=""
+        id={field}
+        value={chosen}
         disabled={others.length === 0}
         onChange={(event) => compare(event.currentTarget.value)}
       >

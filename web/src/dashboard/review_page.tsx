@@ -44,11 +44,12 @@ async function load(id: string, other: string, signal: AbortSignal): Promise<Loa
 
 export function ReviewPage({ id, other }: { id: string; other: string }): JSX.Element {
   const say = words.value;
-  useTitle(say.review_title);
   const found = useResource(
     useCallback((signal: AbortSignal) => load(id, other, signal), [id, other]),
     whilePlanned,
   );
+  const code = found.state === "ready" ? found.value.set.sku.code : "";
+  useTitle(`${say.review_title} ${code}`.trim());
   // What a press on this page made of a set counts until the page is left.
   const [changed, setChanged] = useState<PoseSet | null>(null);
   if (found.state === "loading") return <Loading />;
@@ -56,7 +57,9 @@ export function ReviewPage({ id, other }: { id: string; other: string }): JSX.El
   const { review, other: second, others } = found.value;
   const set = changed?.id === id ? changed : found.value.set;
   if (review !== null && second !== null && second.review !== null) {
-    return <ReviewComparison a={{ set, review }} b={{ set: second.set, review: second.review }} />;
+    return (
+      <ReviewComparison a={{ set, review }} b={{ set: second.set, review: second.review }} others={others} />
+    );
   }
   return (
     <>

@@ -192,7 +192,7 @@ export interface NewPoseSet {
   /** Of an exported set; worked out anew for this SKU. */
   prediction?: Record<string, JsonValue> | null;
   /** How the set was made where it comes from. */
-  provenance?: Origin | null;
+  provenance?: PoseSetOrigin | null;
 }
 
 /** A run to open. */
@@ -222,14 +222,6 @@ export interface NewTarget {
   serial?: string | null;
   /** Pattern with inner corners and the side of a square. */
   spec: string;
-}
-
-/** How a set was made where it comes from; what else stands there is not kept. */
-export interface Origin {
-  planner?: string | null;
-  seed?: number | null;
-  candidates?: number | null;
-  objective?: string | null;
 }
 
 /** How a run ended. The verdict on the camera is another thing: only a completed run has one. */
@@ -324,6 +316,14 @@ export interface PoseSetDocument {
   provenance: Record<string, unknown>;
 }
 
+/** How a set was made where it comes from; what else stands there is not kept. */
+export interface PoseSetOrigin {
+  planner?: string | null;
+  seed?: number | null;
+  candidates?: number | null;
+  objective?: string | null;
+}
+
 /** A pose set, and the job that plans it (null for an imported one). */
 export interface PoseSetRequested {
   pose_set: PoseSet;
@@ -337,7 +337,7 @@ export interface PoseSetReview {
   image_size: [number, number];
   target: ReviewTarget;
   nominal: Record<string, number>;
-  /** Rays of the image's corners, tl, tr, br, bl, at depth 1; null where the lens does not reach. */
+  /** Rays of the image's corners, tl, tr, br, bl, depth 1; null beyond the lens's reach. */
   corner_rays: [number, number, number][] | null;
   /** Corner noise of each pose that all predictions here rest on. */
   sigma_px: number[];

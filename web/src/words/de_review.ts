@@ -25,6 +25,7 @@ export const deReview: typeof enReview = {
     `Bis ein anderer Satz veröffentlicht ist, kann kein neuer Produktionslauf von ${code} beginnen. Offene Läufe behalten diesen. Ein zurückgezogener Satz kann nicht wieder veröffentlicht werden.`,
   review_no: "So lassen",
 
+  review_figures: "Auf einen Blick",
   review_zone_error: "Abbildungsfehler, Arbeitszone",
   review_zone_note: (worst, limit) => `größter ${worst} · Grenze des Mittels ${limit}`,
   review_valid_error: "Größter, Gültigkeitsbereich",

@@ -22,6 +22,7 @@ export const enReview = {
     `No new production run of ${code} can start until another set is published. Open runs keep this one. A retired set cannot be published again.`,
   review_no: "Leave it as it is",
 
+  review_figures: "At a glance",
   review_zone_error: "Mapping error, working zone",
   review_zone_note: (worst: string, limit: string) => `worst ${worst} · limit of the mean ${limit}`,
   review_valid_error: "Worst, valid region",
