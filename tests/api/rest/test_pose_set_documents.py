@@ -63,6 +63,23 @@ def test_an_export_of_a_set_planned_here_reads_back_as_the_very_set(small_plant:
     problem(small_plant.get(f"/pose-sets/{uuid4()}/export"), 404, "not-found")
 
 
+def test_a_set_for_a_lens_that_does_not_reach_the_whole_image_is_imported_and_reviewed(plant: Plant) -> None:
+    # So strong a barrel, with nothing to counter it, folds before the corner of the image.
+    folding = {**SKU, "nominal": {**SKU["nominal"], "k1": -0.55, "k2": 0.0}}
+    plant.expect(201, plant.post("/skus", folding))
+    asked = plant.expect(202, plant.post(PATH, {"seed": 1, "candidates": 300}))["pose_set"]["id"]
+    wait_for_poses(plant, asked)
+
+    made = plant.expect(201, plant.post(PATH, plant.get(f"/pose-sets/{asked}/export").json()))["pose_set"]
+    review = plant.expect(200, plant.get(f"/pose-sets/{made['id']}/review"))
+
+    assert made["prediction"]["mapping"] == {"mean_px": None, "worst_px": None}
+    assert review["maps"]["sd_px"][0][0] is None
+    assert review["maps"]["sd_px"][12][20] > 0
+    assert review["corner_rays"] is None
+    assert review["working_zone"]["mean_px"] > 0
+
+
 def test_a_file_of_before_names_no_image_size_and_is_read(small_plant: Plant) -> None:
     small_plant.publish_sku(with_poses=False)
     document = planned_document()
