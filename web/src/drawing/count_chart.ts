@@ -118,7 +118,7 @@ function drawOver(plot: uPlot, chart: CountChart, colours: Colours): void {
 function drawRequired({ plot, context, density, colours }: Over, required: number, chart: CountChart): void {
   const { left, width } = plot.bbox;
   const y = plot.valToPos(required, "y", true);
-  context.strokeStyle = colours("fail");
+  context.strokeStyle = colours("ink");
   context.setLineDash([]);
   context.lineWidth = 1.5 * density;
   context.beginPath();
@@ -127,7 +127,7 @@ function drawRequired({ plot, context, density, colours }: Over, required: numbe
   context.stroke();
   const text = chart.words.required(chart.write(required));
   context.textAlign = "right";
-  tag({ context, density, colours }, text, left + width - 8 * density, y, colours("fail"));
+  tag({ context, density, colours }, text, left + width - 8 * density, y, colours("ink"));
 }
 
 /** Text on a ground of its own, so that lines do not run through it. */
