@@ -39,6 +39,7 @@ from service.usecases.folder_report import report_document, report_text
 from service.usecases.paging import PageRequest
 from service.usecases.plan_report import plan_text
 from service.usecases.planning import PlanRequest, plan_for, planned_document
+from service.usecases.pose_set_document import pose_set_document
 from service.usecases.sku_file import read_sku_file
 from service.usecases.text import Label
 
@@ -143,9 +144,7 @@ def _plan(arguments: argparse.Namespace) -> int:
     revision = read_sku_file(arguments.sku)
     plan = PlanRequest(arguments.seed, objective=arguments.objective, planner=arguments.planner)
     pose_set = plan_for(revision, plan, count=arguments.count)
-    document = _to_json(
-        {"sku": revision.code, "target": revision.target.spec, **planned_document(revision, pose_set)}
-    )
+    document = _to_json(pose_set_document(revision, None, planned_document(revision, pose_set)))
     if arguments.out is not None:
         _write(arguments.out, document)
     if arguments.json:

@@ -166,6 +166,8 @@ def test_plan_writes_the_pose_set(sku_file: Path, tmp_path: Path, capsys: Printe
     document = json.loads(out.read_text())
     assert len(document["poses"]) == 5
     assert (document["sku"], document["provenance"]["seed"]) == ("lens1", 3)
+    assert (document["revision"], document["image_size"]) == (None, SKU["image_size"])
+    assert document["target"] == SKU["target"]
     assert "5 poses for lens1" in text
     assert text.isascii()
 

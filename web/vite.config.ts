@@ -10,6 +10,8 @@ export default defineConfig({
     target: "es2022",
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
+    // three.js is one piece of this size, loaded only where poses are shown in space.
+    chunkSizeWarningLimit: 600,
     rolldownOptions: { input: { dashboard: "dashboard.html", kiosk: "kiosk.html" } },
   },
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },

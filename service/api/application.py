@@ -14,6 +14,7 @@ from service.api.rest import (
     health,
     jobs,
     keys,
+    pose_set_review,
     pose_sets,
     results,
     runs,
@@ -50,7 +51,19 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     install_problem_handlers(app)
     app.add_middleware(Guard)
     api = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS, max_body_size=MAX_JSON_BYTES)
-    for resource in (runs, results, vehicles, skus, pose_sets, jobs, targets, stations, statistics, keys):
+    for resource in (
+        runs,
+        results,
+        vehicles,
+        skus,
+        pose_sets,
+        pose_set_review,
+        jobs,
+        targets,
+        stations,
+        statistics,
+        keys,
+    ):
         api.include_router(resource.router)
     app.include_router(api)
     images = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS, max_body_size=max_image_bytes)

@@ -276,6 +276,13 @@ class PoseSetInvalid(Unprocessable):
     title = "The pose set cannot be read"
 
 
+class PoseSetMismatch(Unprocessable):
+    """A pose set was made for another camera, image size or target than the one it is sent to."""
+
+    code = "pose-set-mismatch"
+    title = "The pose set is made for another camera"
+
+
 class LimitsInvalid(Unprocessable):
     """A limit has an unknown name or an impossible value."""
 

@@ -131,6 +131,9 @@ class PoseSetRow(Row):
     job_id: Mapped[UUID | None] = mapped_column(_refers_to("job.id"), default=None)
     created_at: Mapped[datetime]
     published_at: Mapped[datetime | None] = mapped_column(default=None)
+    published_by: Mapped[str | None] = mapped_column(default=None)
+    retired_at: Mapped[datetime | None] = mapped_column(default=None)
+    retired_by: Mapped[str | None] = mapped_column(default=None)
 
 
 class StationRow(Row):

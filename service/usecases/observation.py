@@ -122,9 +122,9 @@ def sharpness_from_json(stored: JsonObject) -> Sharpness:
     return Sharpness(_number(stored["edge_width_px"]), (tl, tr, br, bl), _number(stored["centre_px"]))
 
 
-def number_or_null(value: float) -> float | None:
+def number_or_null(value: float | None) -> float | None:
     """Return the number, or None for NaN and infinity, which JSON cannot say."""
-    return float(value) if np.isfinite(value) else None
+    return float(value) if value is not None and np.isfinite(value) else None
 
 
 def _number(value: float | None) -> float:

@@ -1,4 +1,7 @@
-"""Pose sets: plan one in the background, import one, look at it, publish it."""
+"""Pose sets: plan one in the background, import one, look at it, publish it, export it, retire it.
+
+Not here: what a set is explained with (`pose_set_review`).
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,10 +21,17 @@ from service.ports import JobQueue
 from service.storage.models import JobRow, PoseSetRow, SkuRevisionRow, SkuRow
 from service.storage.words import Publication
 from service.usecases.audit import record
-from service.usecases.observation import outer_corners
+from service.usecases.observation import number_or_null, outer_corners
 from service.usecases.paging import PageRequest, Part, page_of
 from service.usecases.planning import PLAN_POSE_SET, PlanRequest, describe_import
-from service.usecases.publication import publish
+from service.usecases.pose_set_document import (
+    NO_CLAIM,
+    Claim,
+    check_claim,
+    check_in_image,
+    pose_set_document,
+)
+from service.usecases.publication import publish, retire
 from service.usecases.sku_document import Revision, SkuDocument
 from service.usecases.skus import SkuReference, get_revision, read_sku
 
@@ -51,6 +61,9 @@ class PoseSetView:
     job_id: UUID | None
     created_at: datetime
     published_at: datetime | None
+    published_by: str | None
+    retired_at: datetime | None
+    retired_by: str | None
 
 
 @dataclass(frozen=True)
@@ -94,17 +107,26 @@ def import_pose_set(
     code: str,
     number: int,
     poses: Sequence[tuple[Triple, Triple]],
+    claim: Claim = NO_CLAIM,
     *,
     who: str,
     now: datetime,
 ) -> Requested:
     """Store given poses as a draft: rotation vector, rad, and translation, m, of `T_cam_board`.
 
-    Raises NotFound, and PoseSetInfeasible for poses that are of no use.
+    claim: for which camera they were made, as far as that is said. Raises NotFound, PoseSetMismatch for
+    another camera's poses, and PoseSetInfeasible for poses that are of no use.
     """
     revision = get_revision(session, code, number)
+    camera = _revision(revision)
+    check_claim(claim, camera)
     given = [Pose(np.array(rvec, dtype=np.float64), np.array(tvec, dtype=np.float64)) for rvec, tvec in poses]
-    document = describe_import(_revision(revision), given)
+    check_in_image(camera, given)
+    document = describe_import(camera, given)
+    document["provenance"] |= claim.origin
+    # Where the lens does not reach all of the zone nothing finite is promised, and JSON knows no infinity.
+    mapping = document["prediction"]["mapping"]
+    document["prediction"]["mapping"] = {name: number_or_null(value) for name, value in mapping.items()}
     row = PoseSetRow(sku_revision_id=revision.id, created_at=now, **document)
     session.add(row)
     session.flush()
@@ -114,7 +136,7 @@ def import_pose_set(
 
 def read_pose_set(session: Session, pose_set_id: UUID) -> PoseSetView:
     """Return a pose set; raises NotFound."""
-    return _view(session, _get(session, pose_set_id))
+    return _view(session, get_pose_set(session, pose_set_id))
 
 
 def list_pose_sets(session: Session, code: str, page: PageRequest) -> Part[PoseSetSummary]:
@@ -144,28 +166,63 @@ def publish_pose_set(session: Session, pose_set_id: UUID, who: str, now: datetim
 
     Raises NotFound, and StateForbids while it has no poses or when it is retired.
     """
-    row = _get(session, pose_set_id)
-    if not row.poses:
-        raise StateForbids(
-            "The pose set has no poses yet. Wait until its job is done; when that failed, request a new set.",
-            job=None if row.job_id is None else f"/api/v1/jobs/{row.job_id}",
-        )
+    row = get_pose_set(session, pose_set_id)
+    _check_planned(row)
     # The lock on the revision keeps two publications at the same moment from both staying published.
     session.get(SkuRevisionRow, row.sku_revision_id, with_for_update=True)
     session.refresh(row)
     siblings = session.scalars(
         select(PoseSetRow).where(PoseSetRow.sku_revision_id == row.sku_revision_id, PoseSetRow.id != row.id)
-    )
+    ).all()
+    replaced = [sibling for sibling in siblings if sibling.state is Publication.PUBLISHED]
     if publish(row, list(siblings), now):
+        row.published_by = who
+        for sibling in replaced:
+            sibling.retired_at, sibling.retired_by = now, who
         record(session, now, who, "pose-set.publish", f"pose-set:{row.id}")
     return _view(session, row)
 
 
-def _get(session: Session, pose_set_id: UUID) -> PoseSetRow:
+def retire_pose_set(session: Session, pose_set_id: UUID, who: str, now: datetime) -> PoseSetView:
+    """Retire a published set; runs that are open keep it. Retiring a retired one changes nothing.
+
+    Raises NotFound, and StateForbids for a draft.
+    """
+    row = get_pose_set(session, pose_set_id)
+    # The lock that publications take, so that one of them and this cannot pass each other.
+    session.get(SkuRevisionRow, row.sku_revision_id, with_for_update=True)
+    session.refresh(row)
+    if retire(row, who, now):
+        record(session, now, who, "pose-set.retire", f"pose-set:{row.id}")
+    return _view(session, row)
+
+
+def export_pose_set(session: Session, pose_set_id: UUID) -> JsonObject:
+    """Return a pose set as the document that `dmscal plan --out` writes and that can be imported.
+
+    Raises NotFound, and StateForbids while it has no poses.
+    """
+    row = get_pose_set(session, pose_set_id)
+    _check_planned(row)
+    revision_row = session.get_one(SkuRevisionRow, row.sku_revision_id)
+    content = {"poses": row.poses, "prediction": row.prediction, "provenance": row.provenance}
+    return pose_set_document(_revision(revision_row), revision_row.number, content)
+
+
+def get_pose_set(session: Session, pose_set_id: UUID) -> PoseSetRow:
+    """Return the row of a pose set; raises NotFound."""
     row = session.get(PoseSetRow, pose_set_id)
     if row is None:
         raise NotFound("There is no pose set of this id.", pose_set_id=str(pose_set_id))
     return row
+
+
+def _check_planned(row: PoseSetRow) -> None:
+    if not row.poses:
+        raise StateForbids(
+            "The pose set has no poses yet. Wait until its job is done; when that failed, request a new set.",
+            job=None if row.job_id is None else f"/api/v1/jobs/{row.job_id}",
+        )
 
 
 def _revision(row: SkuRevisionRow) -> Revision:
@@ -186,6 +243,9 @@ def _view(session: Session, row: PoseSetRow) -> PoseSetView:
         job_id=row.job_id,
         created_at=row.created_at,
         published_at=row.published_at,
+        published_by=row.published_by,
+        retired_at=row.retired_at,
+        retired_by=row.retired_by,
     )
 
 

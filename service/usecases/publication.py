@@ -25,3 +25,16 @@ def publish(
             sibling.state = Publication.RETIRED
     row.state, row.published_at = Publication.PUBLISHED, now
     return True
+
+
+def retire(row: PoseSetRow, who: str, now: datetime) -> bool:
+    """Retire what is published; return False if it is retired already. Raises StateForbids for a draft."""
+    if row.state is Publication.RETIRED:
+        return False
+    if row.state is Publication.DRAFT:
+        raise StateForbids(
+            "It is a draft: no run follows it, so there is nothing to retire. Leave it, or publish it first.",
+            state=row.state.value,
+        )
+    row.state, row.retired_at, row.retired_by = Publication.RETIRED, now, who
+    return True

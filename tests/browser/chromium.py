@@ -12,13 +12,15 @@ from playwright.sync_api import Browser, ConsoleMessage, Page, Request, Response
 
 FLAGS = (
     "--no-sandbox",
-    "--disable-gpu",
     "--disable-quic",
     "--no-first-run",
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
 )
+# Without a graphics card there is no WebGL, unless a renderer in software stands in.
+WITHOUT_WEBGL = ("--disable-gpu", "--disable-3d-apis")
+WEBGL_IN_SOFTWARE = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
 HERE = {"127.0.0.1", "localhost"}
 LOCAL_SCHEMES = {"blob", "data"}
@@ -67,10 +69,10 @@ def find_chromium() -> str:
 
 
 @contextmanager
-def running_chromium() -> Iterator[Browser]:
-    """Run a headless Chromium that asks nobody outside for anything."""
+def running_chromium(drawing: tuple[str, ...] = WITHOUT_WEBGL) -> Iterator[Browser]:
+    """Run a headless Chromium that asks nobody outside for anything; drawing: flags for or against WebGL."""
     program = find_chromium()
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, headless=True, args=FLAGS)
+        browser = playwright.chromium.launch(executable_path=program, headless=True, args=[*FLAGS, *drawing])
         yield browser
         browser.close()

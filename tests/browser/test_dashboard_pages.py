@@ -127,6 +127,23 @@ def test_a_pose_is_picked_by_a_click_into_the_image_and_by_keyboard(
     page.screenshot(path=shots / "sku-pose.png")
 
 
+def test_a_set_is_reviewed_in_a_browser_that_cannot_draw_in_space(
+    page: Page, plant: Serving, month: Month, watch: Watch, shots: Path
+) -> None:
+    loaded: list[str] = []
+    page.on("request", lambda request: loaded.append(request.url))
+    go(page, plant, f"skus/{SKU['code']}")
+    page.get_by_role("link", name="Review this set").click()
+
+    expect(page.get_by_role("heading", level=1)).to_contain_text("Pose set")
+    space = page.get_by_role("region", name="In front of the camera")
+    expect(space).to_contain_text("no WebGL")
+    expect(page.locator(".poses tbody tr")).to_have_count(len(month.pose_set["poses"]))
+    assert not any("space_view" in url for url in loaded)
+    page.screenshot(path=shots / "review-flat.png")
+    assert (watch.errors, watch.outside, watch.refused) == ([], [], [])
+
+
 def test_limits_are_shown_as_the_service_judges_by_them(
     page: Page, plant: Serving, customer: Customer, month: Month
 ) -> None:

@@ -1,6 +1,6 @@
 """Pose sets: the ordered poses that an operator is asked for.
 
-Planned by a job or imported, then published.
+Planned by a job or imported, then published, later retired. Not here: a set explained (`pose_set_review`).
 """
 
 from datetime import datetime
@@ -8,7 +8,7 @@ from typing import Annotated, Any, Self
 from uuid import UUID
 
 from fastapi import APIRouter, Response
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, Of, PageOf, ReadDb
@@ -19,10 +19,16 @@ from service.core.planning.robustness import DRAWS
 from service.storage.words import Publication
 from service.usecases import pose_sets, refinement
 from service.usecases.planning import Planner, PlanRequest
+from service.usecases.pose_set_document import Claim
+from service.usecases.sku_document import Pixels
+from service.usecases.text import Label
 
 router = APIRouter(tags=["Pose sets"])
 
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
+Size = Annotated[tuple[Pixels, Pixels], Field(strict=False)]
+OF_A_PLAN = {"seed", "candidates", "objective", "weights", "draws", "planner"}
+OF_AN_IMPORT = {"sku", "revision", "image_size", "target", "prediction", "provenance"}
 Vector3 = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
 
 
@@ -47,8 +53,23 @@ class WeightsShape(Request):
         return self
 
 
+class PoseSetOrigin(BaseModel):
+    """How a set was made where it comes from; what else stands there is not kept."""
+
+    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+
+    planner: Label | None = None
+    seed: int | None = Field(default=None, ge=0, le=2**63 - 1)
+    candidates: int | None = Field(default=None, ge=0, le=2**63 - 1)
+    objective: Label | None = None
+
+
 class NewPoseSet(Request):
-    """How to plan, or the poses themselves: without any field the service plans with its defaults."""
+    """How to plan, or what to import: without any field the service plans with its defaults.
+
+    To import, give `poses`, or the whole document that an export or `dmscal plan --out` gave: it is refused
+    where it names another SKU, image size or target than the revision has.
+    """
 
     seed: int = Field(default=0, ge=0, le=2**31 - 1, description="Same seed, same poses.")
     candidates: int = Field(default=3000, ge=100, le=20000, description="Poses to choose from.")
@@ -72,17 +93,37 @@ class NewPoseSet(Request):
     poses: list[PoseShape] | None = Field(
         default=None, min_length=3, max_length=100, description="Import these poses instead of planning."
     )
+    sku: Label | None = Field(default=None, description="SKU that the poses were planned for.")
+    revision: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    image_size: Size | None = Field(default=None, description="Image size that they were planned for, px.")
+    target: Label | None = Field(default=None, description="Target that they were planned for.")
+    prediction: dict[str, JsonValue] | None = Field(
+        default=None, description="Of an exported set; worked out anew for this SKU."
+    )
+    provenance: PoseSetOrigin | None = Field(
+        default=None, description="How the set was made where it comes from."
+    )
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"seed": 1, "candidates": 3000}]})
 
     @model_validator(mode="after")
     def _plans_or_imports(self) -> Self:
-        planned_by = self.model_fields_set - {"poses"}
+        planned_by = self.model_fields_set & OF_A_PLAN
         if self.poses is not None and planned_by:
             raise ValueError(f"give either poses to import, or {', '.join(sorted(planned_by))} to plan")
         if self.weights is not None and "objective" in self.model_fields_set:
             raise ValueError("give either an objective or weights")
+        if self.poses is None and self.model_fields_set & OF_AN_IMPORT:
+            raise ValueError(
+                f"{', '.join(sorted(OF_AN_IMPORT))} belong to poses to import; give the poses too"
+            )
         return self
+
+    @property
+    def claim(self) -> Claim:
+        """For which camera the poses were made, as far as it is said."""
+        made = {} if self.provenance is None else self.provenance.model_dump(exclude_none=True)
+        return Claim(self.sku, self.revision, self.image_size, self.target, made)
 
 
 class PlannedPose(Answer):
@@ -138,14 +179,14 @@ class Prediction(Answer):
     mapping: PredictedMapping
     condition: float
     diversity: PredictedDiversity
-    pose_sigma_px: list[float] = Field(default=[], description="Expected corner noise at each pose, px.")
-    curve: list[PredictedCount] = Field(default=[], description="What other numbers of poses would promise.")
+    curve: list[PredictedCount] | None = Field(
+        default=None, description="What sets of other sizes would promise; null for sets that do not tell."
+    )
     required_mapping_px: float | None = Field(
-        default=None, description="Mean mapping error that the SKU requires, px."
+        default=None, description="The mapping error that the planner was to reach."
     )
-    smallest_count: int | None = Field(
-        default=None, description="Fewest poses that promise it; null where none of the curve does."
-    )
+    smallest_count: int | None = Field(default=None, description="The fewest poses that reach it.")
+    pose_sigma_px: list[float] | None = Field(default=None, description="Corner noise expected at each pose.")
 
 
 class PoseSet(Answer):
@@ -160,6 +201,11 @@ class PoseSet(Answer):
     job_id: UUID | None
     created_at: datetime
     published_at: datetime | None
+    published_by: str | None = Field(description="Whose key published it.")
+    retired_at: datetime | None = Field(
+        description="When it was retired, by hand or by the next publication."
+    )
+    retired_by: str | None
 
 
 class PoseSetSummary(Answer):
@@ -172,6 +218,25 @@ class PoseSetSummary(Answer):
     prediction: Prediction | None = Field(description="What the set promises; null while it is planned.")
     created_at: datetime
     published_at: datetime | None
+
+
+class ImportablePose(Answer):
+    """A pose of the board in the camera's frame (`T_cam_board`): rotation vector, rad, and translation, m."""
+
+    rvec: tuple[float, float, float]
+    tvec: tuple[float, float, float]
+
+
+class PoseSetDocument(Answer):
+    """A pose set as `dmscal plan --out` writes it; it can be imported again."""
+
+    sku: str
+    revision: int
+    image_size: tuple[int, int]
+    target: str
+    poses: list[ImportablePose]
+    prediction: dict[str, Any] = Field(description="What it promises, as the planner told it.")
+    provenance: dict[str, Any] = Field(description="How it was made.")
 
 
 class PoseSetRequested(Answer):
@@ -200,7 +265,7 @@ def create_pose_set(
     if body.poses is not None:
         response.status_code = 201
         poses = [(pose.rvec, pose.tvec) for pose in body.poses]
-        made = pose_sets.import_pose_set(db, code, number, poses, who=who, now=now)
+        made = pose_sets.import_pose_set(db, code, number, poses, body.claim, who=who, now=now)
     else:
         weights = None if body.weights is None else Weights(**body.weights.model_dump())
         plan = PlanRequest(
@@ -264,3 +329,18 @@ def refine_sku(code: SkuCode, body: Refinement, *, caller: Engineer, db: Db, of:
     return Refined.model_validate(
         {"revision": made.revision.number, "pose_set": requested.pose_set, "job": requested.job}
     )
+
+
+@router.post("/pose-sets/{pose_set_id}/retire", summary="Retire a pose set")
+def retire_pose_set(pose_set_id: Id, caller: Engineer, db: Db, now: Now) -> PoseSet:
+    """Retire the published set: no new run follows it. Open runs keep it; another set may be published."""
+    return PoseSet.model_validate(pose_sets.retire_pose_set(db, pose_set_id, caller.name, now))
+
+
+@router.get("/pose-sets/{pose_set_id}/export", summary="Export a pose set")
+def export_pose_set(pose_set_id: Id, caller: Viewer, db: ReadDb, response: Response) -> PoseSetDocument:
+    """Give a set as the document that `dmscal plan --out` writes; the same document can be imported."""
+    document = pose_sets.export_pose_set(db, pose_set_id)
+    name = f"{document['sku']}-r{document['revision']}-{pose_set_id.hex[-8:]}.json"
+    response.headers["Content-Disposition"] = f'attachment; filename="{name}"'
+    return PoseSetDocument.model_validate(document)

@@ -9,6 +9,7 @@ Stiller, IJCV 2022). Not here: limits on these values (`service.core.quality`).
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project_with_jacobians, reach_share, unproject
 from service.core.vision.transforms import Array, rotation_matrix
@@ -72,22 +73,32 @@ def parameter_metric(intrinsics: Intrinsics, grid: Region | Array) -> Array:
     return 2.0 * (J.T @ J) / max(len(J), 1)
 
 
-def compensated_jacobian(intrinsics: Intrinsics, grid: Array) -> Array:
+def compensated_jacobian(intrinsics: Intrinsics, grid: Array, held: Region | None = None) -> Array:
     """Return how pixels (m, 2) of fixed directions move with the parameters: (m, 2, p).
 
-    The best rotation of all pixels together is taken out. NaN for pixels that the lens does not reach.
+    The best rotation is taken out: of all pixels together, or of the region that is to be `held`. NaN for
+    pixels that the lens does not reach.
     """
-    rays = unproject(intrinsics, grid)
-    reached = np.all(np.isfinite(rays), axis=-1)
+    reached, A, B = _jacobians(intrinsics, grid)
+    fitted = (A, B) if held is None else _jacobians(intrinsics, held.grid(*GRID))[1:]
+    p = A.shape[-1]
+    turn, *_ = np.linalg.lstsq(fitted[1].reshape(-1, 3), fitted[0].reshape(-1, p), rcond=None)
+    out = np.full((len(grid), 2, p), np.nan)
+    out[reached] = A - B @ turn
+    return out
+
+
+def _jacobians(intrinsics: Intrinsics, pixels: Array) -> tuple[NDArray[np.bool_], Array, Array]:
+    """Return which pixels (m, 2) the lens reaches, and how those r move.
+
+    By the parameters (r, 2, p), and by a turn of the camera (r, 2, 3).
+    """
+    rays = unproject(intrinsics, pixels)
+    reached: NDArray[np.bool_] = np.all(np.isfinite(rays), axis=-1)
     _, by_parameters, by_pose = project_with_jacobians(
         intrinsics.lens, intrinsics.vector, np.eye(3)[None], np.zeros((1, 3)), rays[reached]
     )
-    p = by_parameters.shape[-1]
-    A, B = by_parameters.reshape(-1, p), by_pose[..., :3].reshape(-1, 3)
-    turn, *_ = np.linalg.lstsq(B, A, rcond=None)
-    out = np.full((len(grid), 2, p), np.nan)
-    out[reached] = (A - B @ turn).reshape(-1, 2, p)
-    return out
+    return reached, by_parameters[0], by_pose[0, ..., :3]
 
 
 def mapping_difference(a: Intrinsics, b: Intrinsics, grid: Region | Array) -> Array:

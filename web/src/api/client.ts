@@ -10,6 +10,8 @@ import type {
   PageSku,
   PageStationStanding,
   PoseSet,
+  PoseSetRequested,
+  PoseSetReview,
   RevisionLimits,
   RunDetail,
   SkuDetail,
@@ -18,21 +20,23 @@ import type {
   Yield,
 } from "../generated/api";
 
-interface Change {
-  method: "PATCH";
-  body: unknown;
+interface Sent {
+  method: "POST" | "PATCH";
+  /** What is sent as JSON. */
+  body?: unknown;
 }
 
-async function request(path: string, signal?: AbortSignal, change?: Change): Promise<Response> {
+async function request(path: string, signal?: AbortSignal, sent?: Sent): Promise<Response> {
   let answer: Response;
   const used = key.value;
   try {
     answer = await fetch(path, {
       headers: {
         Authorization: `Bearer ${used ?? ""}`,
-        ...(change && { "Content-Type": "application/json" }),
+        ...(sent?.body !== undefined && { "Content-Type": "application/json" }),
       },
-      ...(change && { method: change.method, body: JSON.stringify(change.body) }),
+      ...(sent && { method: sent.method }),
+      ...(sent?.body !== undefined && { body: JSON.stringify(sent.body) }),
       ...(signal && { signal }),
     });
   } catch (error) {
@@ -58,6 +62,11 @@ async function refuse(answer: Response, used: string | null): Promise<never> {
 
 async function getJson<T>(path: string, signal?: AbortSignal): Promise<T> {
   const answer = await request(path, signal);
+  return (await answer.json()) as T;
+}
+
+async function postJson<T>(path: string, body?: unknown): Promise<T> {
+  const answer = await request(path, undefined, { method: "POST", body });
   return (await answer.json()) as T;
 }
 
@@ -99,12 +108,39 @@ export function getLimits(code: string, revision: number, signal?: AbortSignal):
   return getJson(`${ROOT}/skus/${encodeURIComponent(code)}/revisions/${revision}/limits`, signal);
 }
 
-export function getPoseSets(code: string, signal?: AbortSignal): Promise<PagePoseSetSummary> {
-  return getJson(partPath(`/skus/${encodeURIComponent(code)}/pose-sets`, null), signal);
+export function getPoseSets(
+  code: string,
+  cursor: string | null,
+  signal?: AbortSignal,
+): Promise<PagePoseSetSummary> {
+  return getJson(partPath(`/skus/${encodeURIComponent(code)}/pose-sets`, cursor), signal);
 }
 
 export function getPoseSet(id: string, signal?: AbortSignal): Promise<PoseSet> {
   return getJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}`, signal);
+}
+
+export function getReview(id: string, signal?: AbortSignal): Promise<PoseSetReview> {
+  return getJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}/review`, signal);
+}
+
+export function publishPoseSet(id: string): Promise<PoseSet> {
+  return postJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}/publish`);
+}
+
+export function retirePoseSet(id: string): Promise<PoseSet> {
+  return postJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}/retire`);
+}
+
+/** The file of a pose set, and the name that the service gives it. */
+export async function exportPoseSet(id: string): Promise<{ name: string; content: Blob }> {
+  const answer = await request(`${ROOT}/pose-sets/${encodeURIComponent(id)}/export`);
+  const name = /filename="([^"]+)"/.exec(answer.headers.get("Content-Disposition") ?? "")?.[1];
+  return { name: name ?? "pose-set.json", content: await answer.blob() };
+}
+
+export function importPoseSet(code: string, revision: number, document: unknown): Promise<PoseSetRequested> {
+  return postJson(`${ROOT}/skus/${encodeURIComponent(code)}/revisions/${revision}/pose-sets`, document);
 }
 
 export function getYield(sku: string, station: string, signal?: AbortSignal): Promise<Yield> {

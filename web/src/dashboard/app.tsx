@@ -5,6 +5,7 @@ import { Header, OfflineBar } from "../shell/header";
 import { KeyForm } from "../shell/key_form";
 import { route } from "./address";
 import type { Route } from "./route";
+import { ReviewPage } from "./review_page";
 import { RunPage } from "./run_page";
 import { RunsPage } from "./runs_page";
 import { SkuPage } from "./sku_page";
@@ -37,6 +38,8 @@ function Page({ route: to }: { route: Route }): JSX.Element {
       return <StationsPage />;
     case "skus":
       return <SkusPage />;
+    case "poseSet":
+      return <ReviewPage id={to.id} other={to.with} />;
     case "sku":
       return <SkuPage key={to.code} code={to.code} poseSet={to.poseSet} />;
     case "yield":

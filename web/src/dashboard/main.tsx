@@ -6,6 +6,7 @@ import "../look/tables.css";
 import "../look/run.css";
 import "../look/drawings.css";
 import "../look/plant.css";
+import "../look/review.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
 import { showFirstTheme } from "../look/theme";

@@ -11,6 +11,7 @@ import { PoseSetPicture } from "./pose_set_picture";
 import { PosesTable } from "./poses_table";
 import { PredictionPanel } from "./prediction_panel";
 import { PublicationTag } from "./publication_tag";
+import { addressOf } from "./route";
 
 const REFRESH_MS = 2000;
 /** A set with poses never changes but for its state; one that is still planned does. */
@@ -39,6 +40,7 @@ function Poses({ set, document }: { set: PoseSet; document: SkuDocument }): JSX.
           <span class="muted">
             {say.sku_poses(set.poses.length)} · <PublicationTag state={set.state} />
           </span>
+          <a href={addressOf({ page: "poseSet", id: set.id, with: "" })}>{say.review_open}</a>
         </div>
         <PoseSetPicture
           outlines={outlines}
@@ -48,7 +50,7 @@ function Poses({ set, document }: { set: PoseSet; document: SkuDocument }): JSX.
         />
         <PosesTable poses={set.poses} chosen={chosen} onChoose={setChosen} />
       </section>
-      <PredictionPanel set={set} document={document} />
+      <PredictionPanel set={set} nominal={document.nominal} cornerNoise={document.corner_noise_px ?? 0.1} />
     </div>
   );
 }

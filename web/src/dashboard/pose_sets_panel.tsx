@@ -4,6 +4,7 @@ import type { PoseSetSummary } from "../generated/api";
 import { fixed, withUnit } from "../format/numbers";
 import { when } from "../format/times";
 import { words } from "../words/language";
+import { PoseSetUpload } from "./pose_set_upload";
 import { PublicationTag } from "./publication_tag";
 import { addressOf } from "./route";
 
@@ -11,9 +12,11 @@ interface Props {
   code: string;
   poseSets: readonly PoseSetSummary[];
   chosen: string;
+  /** The revision that an uploaded set is for. */
+  revision: number;
 }
 
-export function PoseSetsPanel({ code, poseSets, chosen }: Props): JSX.Element {
+export function PoseSetsPanel({ code, poseSets, chosen, revision }: Props): JSX.Element {
   const say = words.value;
   return (
     <section class="panel" aria-labelledby="pose-sets-title">
@@ -60,6 +63,7 @@ export function PoseSetsPanel({ code, poseSets, chosen }: Props): JSX.Element {
           </tbody>
         </table>
       )}
+      <PoseSetUpload code={code} revision={revision} />
     </section>
   );
 }

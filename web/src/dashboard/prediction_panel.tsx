@@ -1,6 +1,6 @@
 // The accuracy that a pose set promises before a board is lifted, and how the set was found.
 import { type JSX } from "preact";
-import type { PoseSet, Prediction, SkuDocument } from "../generated/api";
+import type { PoseSet, Prediction } from "../generated/api";
 import { fixed, percent, plain, significant, withUnit } from "../format/numbers";
 import { exactly } from "../format/times";
 import { words } from "../words/language";
@@ -10,7 +10,15 @@ import { Facts, type Fact } from "./facts";
 
 const PIXEL_PARAMETERS = new Set(["fx", "fy", "cx", "cy"]);
 
-export function PredictionPanel({ set, document }: { set: PoseSet; document: SkuDocument }): JSX.Element {
+interface Props {
+  set: PoseSet;
+  /** Parameters of the nominal camera. */
+  nominal: Readonly<Record<string, number>>;
+  /** The SKU's corner noise, px: what sets were reckoned with that do not tell their own. */
+  cornerNoise: number;
+}
+
+export function PredictionPanel({ set, nominal, cornerNoise }: Props): JSX.Element {
   const say = words.value;
   const { prediction } = set;
   return (
@@ -19,7 +27,7 @@ export function PredictionPanel({ set, document }: { set: PoseSet; document: Sku
         <section class="panel" aria-labelledby="prediction-title">
           <div class="panel-head">
             <h2 id="prediction-title">{say.prediction_title}</h2>
-            <span class="muted">{say.prediction_note(plain(noiseOf(set, document)))}</span>
+            <span class="muted">{say.prediction_note(noiseOf(set, cornerNoise))}</span>
           </div>
           <table class="intrinsics">
             <thead>
@@ -42,7 +50,7 @@ export function PredictionPanel({ set, document }: { set: PoseSet; document: Sku
                   <th scope="row">
                     <var>{name}</var>
                   </th>
-                  <td class="number muted">{plain(document.nominal?.[name] ?? 0)}</td>
+                  <td class="number muted">{plain(nominal[name] ?? 0)}</td>
                   <td class="number estimate">{sd === 0 ? say.fixed : `± ${significant(sd)}`}</td>
                   <td class="muted">{PIXEL_PARAMETERS.has(name) ? "px" : ""}</td>
                 </tr>
@@ -62,16 +70,19 @@ export function PredictionPanel({ set, document }: { set: PoseSet; document: Sku
   );
 }
 
-/** The noise that the planner reckoned with; sets that were imported take the SKU's. */
-function noiseOf(set: PoseSet, document: SkuDocument): number {
+/** The noise that the planner reckoned with: from the best to the worst pose, or one for all. */
+function noiseOf(set: PoseSet, cornerNoise: number): string {
+  const each = set.prediction?.pose_sigma_px ?? [];
+  const [least, most] = [Math.min(...each), Math.max(...each)];
+  if (each.length > 0 && least < most) return `${significant(least)}–${significant(most)}`;
   const told = set.provenance["sigma_px"];
-  return typeof told === "number" ? told : (document.corner_noise_px ?? 0.1);
+  return plain(each[0] ?? (typeof told === "number" ? told : cornerNoise));
 }
 
 function promised({ mapping, norm_px, condition, diversity }: Prediction, say: Words): Fact[] {
   return [
     {
-      name: say.fact_mapping,
+      name: say.fact_mapping_planned,
       note: say.mean_and_worst,
       value: `${fixed(mapping.mean_px, 3)} / ${fixed(mapping.worst_px, 3)} px`,
     },
@@ -94,11 +105,17 @@ function origin(set: PoseSet, say: Words): Fact[] {
     })),
     { name: say.col_created, value: exactly(set.created_at) },
     ...(set.published_at === null ? [] : [{ name: say.set_published, value: exactly(set.published_at) }]),
+    ...(set.retired_at === null ? [] : [{ name: say.state_retired, value: exactly(set.retired_at) }]),
     { name: "Id", value: set.id },
   ];
 }
 
 function provenanceText(value: unknown): string {
   if (typeof value === "string") return value;
-  return typeof value === "number" ? plain(value) : JSON.stringify(value);
+  if (typeof value === "number") return plain(value);
+  if (Array.isArray(value)) return value.map(provenanceText).join(", ");
+  if (typeof value !== "object" || value === null) return JSON.stringify(value);
+  return Object.entries(value)
+    .map(([name, part]) => `${provenanceName(name, words.value)} ${provenanceText(part)}`)
+    .join(" · ");
 }

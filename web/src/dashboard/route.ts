@@ -7,6 +7,7 @@ export type Route =
   | { page: "vehicle"; serial: string }
   | { page: "stations" }
   | { page: "skus" }
+  | { page: "poseSet"; id: string; with: string }
   | { page: "sku"; code: string; poseSet: string }
   | { page: "yield"; sku: string; station: string };
 
@@ -31,6 +32,7 @@ function listRoute(page: string, query: URLSearchParams): Route | null {
 function oneRoute(page: string, name: string, query: URLSearchParams): Route | null {
   if (page === "runs") return { page: "run", id: name };
   if (page === "vehicles") return { page: "vehicle", serial: name };
+  if (page === "pose-sets") return { page: "poseSet", id: name, with: query.get("with") ?? "" };
   if (page === "skus") return { page: "sku", code: name, poseSet: query.get("pose_set") ?? "" };
   return null;
 }
@@ -41,6 +43,8 @@ export function addressOf(route: Route): string {
       return `#/runs/${encodeURIComponent(route.id)}`;
     case "vehicle":
       return `#/vehicles/${encodeURIComponent(route.serial)}`;
+    case "poseSet":
+      return withQuery(`#/pose-sets/${encodeURIComponent(route.id)}`, { with: route.with });
     case "sku":
       return withQuery(`#/skus/${encodeURIComponent(route.code)}`, { pose_set: route.poseSet });
     case "yield":

@@ -27,7 +27,7 @@ export function SkuPage({ code, poseSet }: { code: string; poseSet: string }): J
   const found = useResource(
     useCallback(
       async (signal: AbortSignal): Promise<Loaded> => {
-        const [sku, sets] = await Promise.all([getSku(code, signal), getPoseSets(code, signal)]);
+        const [sku, sets] = await Promise.all([getSku(code, signal), getPoseSets(code, null, signal)]);
         return { sku, poseSets: sets.items };
       },
       [code],
@@ -67,7 +67,12 @@ function Sku({ loaded: { sku, poseSets }, poseSet }: { loaded: Loaded; poseSet: 
         <div class="columns columns-sku">
           <NominalPanel document={revision.document} />
           <LimitsPanel code={sku.code} revision={revision.number} />
-          <PoseSetsPanel code={sku.code} poseSets={poseSets} chosen={chosen?.id ?? ""} />
+          <PoseSetsPanel
+            code={sku.code}
+            poseSets={poseSets}
+            chosen={chosen?.id ?? ""}
+            revision={sku.published_revision ?? sku.latest_revision}
+          />
         </div>
       )}
     </>

@@ -55,7 +55,7 @@ function paint(canvas: HTMLCanvasElement, size: Size, draw: Draw): void {
   draw(context, size, coloursOf(canvas));
 }
 
-function coloursOf(element: HTMLElement): Colours {
+export function coloursOf(element: HTMLElement): Colours {
   // light-dark() stays unresolved in a custom property; only a real property gives the colour itself.
   const resolved = new Map<string, string>();
   return (token) => {

@@ -4,14 +4,19 @@ import type { Point } from "./viewport";
 export interface Outline {
   /** Place in the order of the set, from 1. */
   number: number;
-  /** tl, tr, br, bl in the board's own order, image px. */
+  /** Along the outline, from the board's first corner on, image px. */
   corners: readonly Point[];
   centre: Point;
 }
 
 export function outlinesOf(poses: readonly { outer_corners: readonly (readonly number[])[] }[]): Outline[] {
-  return poses.map((pose, i) => {
-    const corners = pose.outer_corners.map(([x, y]) => ({ x: x ?? Number.NaN, y: y ?? Number.NaN }));
+  return boundOutlines(poses.map(({ outer_corners }) => outer_corners));
+}
+
+/** Outlines of closed lines, which may bend with the lens; each begins at the board's first corner. */
+export function boundOutlines(lines: readonly (readonly (readonly number[])[])[]): Outline[] {
+  return lines.map((line, i) => {
+    const corners = line.map(([x, y]) => ({ x: x ?? Number.NaN, y: y ?? Number.NaN }));
     return { number: i + 1, corners, centre: centreOf(corners) };
   });
 }

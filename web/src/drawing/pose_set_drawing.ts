@@ -1,6 +1,8 @@
 // A pose set in the camera's image: where the board goes, in which order, and which pose is looked at.
 import type { Colours } from "./drawing";
 import { drawFrame, imageToCanvas } from "./image_frame";
+import type { Zone } from "./heat_grid";
+import { drawZoneLine } from "./image_zones";
 import { spread, type Outline } from "./pose_outlines";
 import type { Point, Size } from "./viewport";
 
@@ -8,7 +10,10 @@ export interface PoseSetScene {
   outlines: readonly Outline[];
   /** Index of the pose that is looked at. */
   chosen: number;
+  /** Index of the pose under the pointer, here or in another picture of the set. */
+  hovered?: number | null;
   imageSize: Size;
+  workingZone?: Zone | undefined;
 }
 
 const LABEL_RADIUS = 11;
@@ -25,11 +30,15 @@ export function drawPoseSet(
     scene.outlines.map(({ centre }) => at(centre)),
     LABEL_RADIUS,
   );
+  const hovered = scene.hovered ?? null;
   drawFrame(context, scene.imageSize, at, colours);
+  if (scene.workingZone !== undefined) drawZoneLine(context, scene.workingZone, at, colours);
   placed.forEach((corners, i) => {
-    if (i !== scene.chosen) drawOutline(context, corners, colours("plot-point"), 1);
+    if (i !== scene.chosen) drawOutline(context, corners, colours("plot-point"), i === hovered ? 2.5 : 1);
   });
   drawPath(context, labels, colours("plot-axis"));
+  const pointed = hovered === null || hovered === scene.chosen ? undefined : placed[hovered];
+  if (pointed !== undefined) fillOutline(context, pointed, colours("plot-point"));
   const chosen = placed[scene.chosen];
   if (chosen !== undefined) {
     fillOutline(context, chosen, colours("plot-chosen"));

@@ -108,6 +108,12 @@ export interface FieldError {
   detail: string;
 }
 
+/** A pose of the board in the camera's frame (`T_cam_board`): rotation vector, rad, and translation, m. */
+export interface ImportablePose {
+  rvec: [number, number, number];
+  tvec: [number, number, number];
+}
+
 /** Work in the background. */
 export interface Job {
   id: string;
@@ -174,7 +180,12 @@ export interface NewKey {
   role: Role;
 }
 
-/** How to plan, or the poses themselves: without any field the service plans with its defaults. */
+/**
+ * How to plan, or what to import: without any field the service plans with its defaults.
+ *
+ * To import, give `poses`, or the whole document that an export or `dmscal plan --out` gave: it is refused
+ * where it names another SKU, image size or target than the revision has.
+ */
 export interface NewPoseSet {
   /** Same seed, same poses. */
   seed?: number;
@@ -192,6 +203,17 @@ export interface NewPoseSet {
   planner?: "exchange" | "paper";
   /** Import these poses instead of planning. */
   poses?: PoseShape[] | null;
+  /** SKU that the poses were planned for. */
+  sku?: string | null;
+  revision?: number | null;
+  /** Image size that they were planned for, px. */
+  image_size?: [number, number] | null;
+  /** Target that they were planned for. */
+  target?: string | null;
+  /** Of an exported set; worked out anew for this SKU. */
+  prediction?: Record<string, JsonValue> | null;
+  /** How the set was made where it comes from. */
+  provenance?: PoseSetOrigin | null;
 }
 
 /** A run to open. */
@@ -305,12 +327,61 @@ export interface PoseSet {
   job_id: string | null;
   created_at: string;
   published_at: string | null;
+  /** Whose key published it. */
+  published_by: string | null;
+  /** When it was retired, by hand or by the next publication. */
+  retired_at: string | null;
+  retired_by: string | null;
+}
+
+/** A pose set as `dmscal plan --out` writes it; it can be imported again. */
+export interface PoseSetDocument {
+  sku: string;
+  revision: number;
+  image_size: [number, number];
+  target: string;
+  poses: ImportablePose[];
+  /** What it promises, as the planner told it. */
+  prediction: Record<string, unknown>;
+  /** How it was made. */
+  provenance: Record<string, unknown>;
+}
+
+/** How a set was made where it comes from; what else stands there is not kept. */
+export interface PoseSetOrigin {
+  planner?: string | null;
+  seed?: number | null;
+  candidates?: number | null;
+  objective?: string | null;
 }
 
 /** A pose set, and the job that plans it (null for an imported one). */
 export interface PoseSetRequested {
   pose_set: PoseSet;
   job: Job | null;
+}
+
+/** A pose set explained for the nominal camera of its SKU revision. */
+export interface PoseSetReview {
+  id: string;
+  sku: PoseSetSku;
+  image_size: [number, number];
+  target: ReviewTarget;
+  nominal: Record<string, number>;
+  /** Rays of the image's corners, tl, tr, br, bl, depth 1; null beyond the lens's reach. */
+  corner_rays: [number, number, number][] | null;
+  /** Corner noise of each pose that all predictions here rest on. */
+  sigma_px: number[];
+  /** Expected standard deviation by parameter; 0 for fixed ones. */
+  sd: Record<string, number>;
+  poses: ReviewedPose[];
+  maps: ReviewMaps;
+  working_zone: ReviewZone;
+  valid_region: ReviewZone;
+  /** What a calibration's mean in the working zone may be. */
+  working_limit_px: number;
+  /** What a calibration's worst in the valid region may be. */
+  valid_limit_px: number;
 }
 
 /** Which revision of which SKU. */
@@ -391,14 +462,14 @@ export interface Prediction {
   mapping: PredictedMapping;
   condition: number;
   diversity: PredictedDiversity;
-  /** Expected corner noise at each pose, px. */
-  pose_sigma_px?: number[];
-  /** What other numbers of poses would promise. */
-  curve?: PredictedCount[];
-  /** Mean mapping error that the SKU requires, px. */
+  /** What sets of other sizes would promise; null for sets that do not tell. */
+  curve?: PredictedCount[] | null;
+  /** The mapping error that the planner was to reach. */
   required_mapping_px?: number | null;
-  /** Fewest poses that promise it; null where none of the curve does. */
+  /** The fewest poses that reach it. */
   smallest_count?: number | null;
+  /** Corner noise expected at each pose. */
+  pose_sigma_px?: number[] | null;
 }
 
 /** A problem document (RFC 9457). */
@@ -491,6 +562,64 @@ export interface Result {
   agreement_px: number | null;
   versions: Record<string, string>;
   created_at: string;
+}
+
+/** The image cut into cells, values row by row from the top left; null where the lens does not reach. */
+export interface ReviewMaps {
+  columns: number;
+  rows: number;
+  /** Expected error of the mapping; the best rotation for the working zone is taken out. */
+  sd_px: ((number | null)[])[];
+  /** The same as an angle of the ray, thousandths of a degree. */
+  sd_mdeg: ((number | null)[])[];
+  /** How many boards cover the cell. */
+  boards: number[][];
+  /** How many corners of all boards are in the cell. */
+  corners: number[][];
+}
+
+/** The board: inner corners and the side of a square. */
+export interface ReviewTarget {
+  spec: string;
+  columns: number;
+  rows: number;
+  square_m: number;
+}
+
+/** A part of the image, the mapping error expected in it, and its share within the hull of all corners. */
+export interface ReviewZone {
+  left_px: number;
+  top_px: number;
+  right_px: number;
+  bottom_px: number;
+  mean_px: number | null;
+  worst_px: number | null;
+  covered_share: number;
+}
+
+/** A pose of the set, in the camera's frame: x right, y down, z forward. */
+export interface ReviewedPose {
+  index: number;
+  /** Middle of the board's corners. */
+  centre_m: [number, number, number];
+  /** Rows of the rotation of `T_cam_board`. */
+  rotation: [[number, number, number], [number, number, number], [number, number, number]];
+  /** Of the centre from the camera. */
+  distance_m: number;
+  /** Between the board's normal and the optical axis. */
+  tilt_deg: number;
+  pitch_deg: number;
+  yaw_deg: number;
+  roll_deg: number;
+  /** Line around the outermost corners in the image, as the lens bends it, closed. */
+  outline_px: [number, number][];
+  /** Corners of the printed pattern: tl, tr, br, bl in the board's own order. */
+  plate_corners_m: [number, number, number][];
+  smallest_square_px: number;
+  /**
+   * By how much the mapping error in the working zone grows without this pose (0.1: 10 %); null where the other poses do not determine the camera.
+   */
+  loss_share: number | null;
 }
 
 /** All limits by which runs of a revision are judged. */
@@ -614,7 +743,7 @@ export interface SkuDocument {
   /** Where its map is used; null: default. */
   valid_region?: RegionDocument | null;
   /**
-   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
+   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
    */
   limits?: Record<string, unknown>;
 }

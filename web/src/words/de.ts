@@ -1,9 +1,11 @@
 // Every text of the pages in German.
 import { deKiosk } from "./de_kiosk";
+import { deReview } from "./de_review";
 import type { Words } from "./en";
 
 export const de: Words = {
   ...deKiosk,
+  ...deReview,
 
   language: "Deutsch",
   product: "dmscal",

@@ -1,8 +1,10 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
 import { enKiosk } from "./en_kiosk";
+import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
+  ...enReview,
 
   language: "English",
   product: "dmscal",
