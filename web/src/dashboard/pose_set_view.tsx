@@ -50,7 +50,11 @@ function Poses({ set, document }: { set: PoseSet; document: SkuDocument }): JSX.
         />
         <PosesTable poses={set.poses} chosen={chosen} onChoose={setChosen} />
       </section>
-      <PredictionPanel set={set} nominal={document.nominal} cornerNoise={document.corner_noise_px ?? 0.1} />
+      <PredictionPanel
+        set={set}
+        nominal={document.nominal ?? {}}
+        cornerNoise={document.corner_noise_px ?? 0.1}
+      />
     </div>
   );
 }
