@@ -60,8 +60,9 @@ class PoseDifference:
                      / bottom                             (o)
 
     corner_px: mean distance of the four outer corners, the paper's rule. effects_px: by how much each of the
-    six errors alone moves those corners, in the order of the fields. leads_out: whether to mend that error
-    alone would take a corner of the seen board out of the picture. is_upside_down: turned by about 180°.
+    six errors alone moves those corners, in the order of the fields. ways: how far a hand must move the board
+    for each, m and rad. leads_out: whether to mend that error alone would take a corner of the seen board out
+    of the picture. is_upside_down: turned by about 180°.
     """
 
     right_px: float
@@ -73,6 +74,7 @@ class PoseDifference:
     corner_px: float
     is_upside_down: bool
     effects_px: tuple[float, float, float, float, float, float]
+    ways: tuple[float, float, float, float, float, float]
     leads_out: tuple[bool, bool, bool, bool, bool, bool] = (False, False, False, False, False, False)
 
 
@@ -96,6 +98,7 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Che
     outer = target.object_points[list(target.outer_corners)] - target.centre
     corners = project(intrinsics, rotations, centres, outer)
     distances = np.nan_to_num(np.linalg.norm(corners[1:6] - corners[0], axis=-1), nan=UNSEEN_PX).mean(axis=-1)
+    across, down_m, along = abs(shift[0]), abs(shift[1]), np.linalg.norm(found) * abs(closer) / (1.0 + closer)
     corner_px, closer_px, tilt_px, turn_px, roll_px = (float(distance) for distance in distances)
     out = [bool(leads) for leads in ~_are_inside(corners[6:], intrinsics.image_size)]
     return PoseDifference(
@@ -108,6 +111,7 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Che
         corner_px=corner_px,
         is_upside_down=_axis_angle(R, R_seen) > UPSIDE_DOWN_RAD,
         effects_px=(abs(right), abs(down), closer_px, tilt_px, turn_px, roll_px),
+        ways=(float(across), float(down_m), float(along), abs(tilt), abs(turn), abs(roll)),
         leads_out=(out[0], out[1], out[2], out[3], out[4], out[5]),
     )
 

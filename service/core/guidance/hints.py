@@ -11,6 +11,8 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import Final
 
+import numpy as np
+
 from service.core.guidance.comparison import PoseDifference, Tolerances, is_match
 
 
@@ -56,6 +58,7 @@ DIRECTIONS: Final = (
     (Hint.TURN_LEFT_BACK, Hint.TURN_RIGHT_BACK),
     (Hint.ROTATE_CLOCKWISE, Hint.ROTATE_COUNTERCLOCKWISE),
 )
+SHIFTS: Final = (0, 1, 2)  # of DIRECTIONS
 MOST_HINTS: Final = 2
 # Each error alone may move the outer corners by this share of their tolerance.
 EFFECT_SHARE: Final = 0.6
@@ -63,8 +66,11 @@ EFFECT_SHARE: Final = 0.6
 KEPT_UNTIL: Final = 0.7
 # Less than this share of a tolerance is never worth a hint.
 WORTH_MENDING: Final = 0.3
-# Up to so many tolerances, so much is left to go.
-AMOUNTS: Final = ((2.0, 0.05), (4.0, 0.1), (8.0, 0.2), (16.0, 0.4), (float("inf"), 1.0))
+# What is far for a hand, and how much of that may be left: each step is about 1.6 times the one before. Not in
+# tolerances: they say how exactly a board must be held, and not how long it takes to get there.
+FAR_M: Final = 0.25
+FAR_RAD: Final = float(np.deg2rad(95.0))
+AMOUNTS: Final = (0.02, 0.04, 0.06, 0.1, 0.15, 0.25, 0.4, 0.6, 1.0)
 
 _MIRRORED_PAIRS: Final = (
     (Hint.MOVE_LEFT, Hint.MOVE_RIGHT),
@@ -125,10 +131,13 @@ def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> 
     }
 
 
-def coarse_amount(hint: Hint, difference: PoseDifference, tolerances: Tolerances) -> float:
-    """Return one of AMOUNTS for a movement: how far there is to go. 1 for hints that are no movement."""
-    error = errors_in_tolerances(difference, tolerances).get(hint)
-    return 1.0 if error is None else next(amount for reach, amount in AMOUNTS if error <= reach)
+def coarse_amount(hint: Hint, difference: PoseDifference) -> float:
+    """Return which of AMOUNTS is nearest to the way left for a movement; 1 for hints that are no movement."""
+    axis = next((i for i, pair in enumerate(DIRECTIONS) if hint in pair), None)
+    if axis is None:
+        return 1.0
+    share = difference.ways[axis] / (FAR_M if axis in SHIFTS else FAR_RAD)
+    return min(AMOUNTS, key=lambda amount: abs(np.log(amount / max(share, AMOUNTS[0]))))
 
 
 def mirror_hint(hint: Hint) -> Hint:

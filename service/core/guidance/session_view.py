@@ -84,5 +84,5 @@ def _hints(state: SessionState, settings: GuidanceSettings) -> tuple[ShownHint, 
         return () if hint is None else (ShownHint(hint),)
     if state.moves:
         difference = state.difference
-        return tuple(ShownHint(m, coarse_amount(m, difference, settings.tolerances)) for m in state.moves)
+        return tuple(ShownHint(move, coarse_amount(move, difference)) for move in state.moves)
     return (ShownHint(Hint.HOLD if state.obstacle is None else OBSTACLE_HINTS[state.obstacle]),)

@@ -5,7 +5,9 @@ import pytest
 
 from service.core.guidance.comparison import PoseDifference, default_tolerances
 from service.core.guidance.hints import (
+    AMOUNTS,
     DIRECTIONS,
+    FAR_RAD,
     Hint,
     choose_hints,
     coarse_amount,
@@ -19,7 +21,8 @@ FIELDS = ("right_px", "down_px", "closer_share", "tilt_rad", "turn_rad", "roll_r
 def difference(**errors: float) -> PoseDifference:
     right, down, closer, tilt, turn, roll = (errors.get(name, 0.0) for name in FIELDS)
     none = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    return PoseDifference(right, down, closer, tilt, turn, roll, errors.get("corner_px", 100.0), False, none)
+    corner_px = errors.get("corner_px", 100.0)
+    return PoseDifference(right, down, closer, tilt, turn, roll, corner_px, False, none, ways=none)
 
 
 @pytest.mark.parametrize(
@@ -89,12 +92,19 @@ def test_what_would_take_the_board_out_of_the_picture_waits() -> None:
 
 
 def test_the_amount_is_coarse_and_falls_on_the_way() -> None:
+    ways = (0.5, 0.1, 0.03, 0.001)
     amounts = [
-        coarse_amount(Hint.MOVE_RIGHT, difference(right_px=px), TOLERANCES) for px in (900, 300, 100, 35)
+        coarse_amount(Hint.MOVE_RIGHT, replace(difference(), ways=(way, 0, 0, 0, 0, 0))) for way in ways
     ]
-    assert amounts == sorted(amounts, reverse=True)
-    assert set(amounts) <= {0.05, 0.1, 0.2, 0.4, 1.0}
-    assert coarse_amount(Hint.HOLD, difference(), TOLERANCES) == 1.0
+    assert amounts == [1.0, 0.4, 0.1, 0.02]
+    assert set(amounts) <= set(AMOUNTS)
+    assert coarse_amount(Hint.HOLD, difference()) == 1.0
+
+
+def test_a_turn_is_measured_against_what_is_far_for_a_turn() -> None:
+    half = replace(difference(), ways=(0.0, 0.0, 0.0, 0.0, 0.0, 0.6 * FAR_RAD))
+    assert coarse_amount(Hint.ROTATE_CLOCKWISE, half) == 0.6
+    assert coarse_amount(Hint.MOVE_DOWN, half) == AMOUNTS[0]
 
 
 def test_a_mirror_swaps_left_and_right_and_the_sense_of_rotation_and_nothing_else() -> None:
