@@ -97,7 +97,7 @@ class Hand:
         while self._read and self._read[0][0] <= self._now_s:
             arrived = self._read.popleft()[1]
             if _shows(arrived, Hint.SHOW_WHOLE_BOARD) and not _shows(self._obeyed, Hint.SHOW_WHOLE_BOARD):
-                self._steering.startle(self._obeyed)
+                self._steering.startle()
             self._obeyed = arrived
 
     def _decide(self, dt_s: float, rng: np.random.Generator) -> Array:

@@ -14,6 +14,7 @@ FAR: Final = 1.0  # an amount at which care is not needed yet
 FAR_PACE: Final = 0.5
 DOUBLED_WITHIN_S: Final = 2.5
 SOON_S: Final = 1.0
+GOES_ON_S: Final = 0.6  # so long after a hint has ended a hand may still be on its way
 
 
 class Steering:
@@ -40,10 +41,11 @@ class Steering:
                 wanted[axis] = sense * hint.amount * self._pace[axis]
         return wanted
 
-    def startle(self, hints: tuple[ShownHint, ...]) -> None:
-        """Slow down what these hints asked for: it led out of the picture."""
-        for axis in {MOVES[hint.code][0] for hint in hints if hint.code in MOVES}:
-            self._slow_down(axis)
+    def startle(self) -> None:
+        """Slow down what was moved last, if that was just now: it led out of the picture."""
+        latest = max(float(self._obeyed_s.max()), self._now_s - GOES_ON_S)
+        for axis in np.flatnonzero(self._obeyed_s >= latest):
+            self._slow_down(int(axis))
 
     def _heed(self, axis: int, sense: float, amount: float, dt_s: float) -> None:
         if sense == -self._sense[axis] and self._now_s - self._obeyed_s[axis] <= SOON_S:

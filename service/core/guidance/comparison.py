@@ -70,9 +70,9 @@ class PoseDifference:
 
     corner_px: mean distance of the four outer corners, the paper's rule. effects_px: by how much each of the
     six errors alone moves those corners, in the order of the fields. ways: how far a hand must move the board
-    for each, m and rad. leads_out, half_leads_out: whether to mend that error alone, or half of it, would take a
-    corner of the seen board out of the picture; pairs_lead_out: the pairs of fields (i, j), i < j, that would do so
-    when both are mended. is_upside_down: turned by about 180°.
+    for each, m and rad. leads_out, half_leads_out: whether to mend that error alone, or half of it, would
+    take a corner of the seen board out of the picture; pairs_lead_out: the pairs of fields (i, j), i < j,
+    that would do so when both are mended. is_upside_down: turned by about 180°.
     """
 
     right_px: float

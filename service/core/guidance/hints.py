@@ -146,12 +146,22 @@ def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> 
     }
 
 
-def coarse_amount(hint: Hint, difference: PoseDifference) -> float:
+def show_hints(moves: tuple[Hint, ...], difference: PoseDifference) -> tuple[ShownHint, ...]:
+    """Return movements with their amounts.
+
+    One that is alone and would lead out of the picture has half its way before it: a hand goes on for a
+    moment and must not get there. Of two that lead out alone, each makes room for the other.
+    """
+    return tuple(ShownHint(move, coarse_amount(move, difference, is_lone=len(moves) == 1)) for move in moves)
+
+
+def coarse_amount(hint: Hint, difference: PoseDifference, *, is_lone: bool = False) -> float:
     """Return which of AMOUNTS is nearest to the way left for a movement; 1 for hints that are no movement."""
     axis = next((i for i, pair in enumerate(DIRECTIONS) if hint in pair), None)
     if axis is None:
         return 1.0
     share = difference.ways[axis] / (FAR_M if axis in SHIFTS else FAR_RAD)
+    share *= 0.5 if is_lone and difference.leads_out[axis] else 1.0
     return min(AMOUNTS, key=lambda amount: abs(np.log(amount / max(share, AMOUNTS[0]))))
 
 
