@@ -71,11 +71,11 @@ def run(quick: bool) -> dict[str, Any]:
     return measure(QUICK if quick else Effort(), os.cpu_count() or 1)
 
 
-def measure(effort: Effort, processes: int) -> dict[str, Any]:
-    """Return the figures of an effort, shared among processes."""
-    stations = [plan_station(sku, effort.candidates, effort.count) for sku in PAPER_SKUS]
+def measure(effort: Effort, processes: int, skus: Sequence[Mapping[str, Any]] = PAPER_SKUS) -> dict[str, Any]:
+    """Return the figures of an effort, shared among processes; hints are turned round before the last SKU."""
+    stations = [plan_station(sku, effort.candidates, effort.count) for sku in skus]
     lenses = {station.code: _measure_lens(station, effort, processes) for station in stations}
-    flips = _measure_flips(stations[1], list(OPPOSITE)[: effort.flips], processes)
+    flips = _measure_flips(stations[-1], list(OPPOSITE)[: effort.flips], processes)
     completed = {hint: row["complete"] for hint, row in flips.items()}
     seeds = list(range(effort.seeds))
     return {**lenses, "completed_with_a_flipped_hint": completed, "flipped_hints": flips, "seeds": seeds}
@@ -83,7 +83,7 @@ def measure(effort: Effort, processes: int) -> dict[str, Any]:
 
 def table(result: Mapping[str, Any]) -> str:
     """Return the figures as text."""
-    codes = [sku["code"] for sku in PAPER_SKUS]
+    codes = [sku["code"] for sku in PAPER_SKUS if sku["code"] in result]
     return "\n".join(
         [
             f"{'every pose':<32}{'reached':>12}{'median s':>10}{'slowest s':>11}{'turned round':>14}",
