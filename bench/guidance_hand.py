@@ -115,7 +115,7 @@ def _runs_line(code: str, name: str, row: Mapping[str, Any]) -> str:
 def _flip_line(hint: str, row: Mapping[str, Any]) -> str:
     if not row["complete"]:
         return f"{hint:<32}fails: {row['captured']} poses in {row['run_s']:.0f} s"
-    how = ", by going all the way round" if row["went_round"] else ""
+    how = ", by going all the way round, upside down" if row["went_round"] else ""
     seen = "" if row["recognisable"] else ": NOT RECOGNISABLY WRONG"
     return f"{hint:<32}completes in {row['run_s']:.0f} s, {row['times_slower']:.1f} times as long{how}{seen}"
 
@@ -189,23 +189,29 @@ def _measure_flips(station: Station, hints: Sequence[Hint], processes: int) -> d
     """Return what becomes of a run with each hint turned round, beside the same run without."""
     trials = [flipped_run(station, hint) for hint in (None, *hints)]
     right, *wrong = attempt_all(trials, processes)
-    usual_s = duration(right, trials[0])
+    usual_s, usually_round = duration(right, trials[0]), _went_round(right)
     return {
-        hint.value: _flip_row(one, duration(one, trial), usual_s)
+        hint.value: _flip_row(one, duration(one, trial) / usual_s, usually_round)
+        | {"run_s": duration(one, trial)}
         for hint, one, trial in zip(hints, wrong, trials[1:], strict=True)
     }
 
 
-def _flip_row(done: GuidedRun, run_s: float, usual_s: float) -> dict[str, Any]:
-    slower = run_s / usual_s
+def _flip_row(done: GuidedRun, times_slower: float, usually_round: bool) -> dict[str, Any]:
+    """Return what became of a run; it is recognised as wrong by failing, its time or the way round."""
+    went_round = _went_round(done) and not usually_round
     return {
         "complete": done.complete,
         "captured": len(done.captures),
-        "run_s": run_s,
-        "times_slower": slower,
-        "went_round": Hint.TURN_UPSIDE_DOWN in done.told,
-        "recognisable": not done.complete or slower >= MUCH_SLOWER,
+        "times_slower": times_slower,
+        "went_round": went_round,
+        "recognisable": not done.complete or went_round or times_slower >= MUCH_SLOWER,
     }
+
+
+def _went_round(done: GuidedRun) -> bool:
+    """Whether the board got upside down, as none does that begins upright and is told the right way."""
+    return Hint.TURN_UPSIDE_DOWN in done.told
 
 
 def _durations(done: Sequence[GuidedRun], trials: Sequence[Trial]) -> list[float]:
