@@ -1,0 +1,159 @@
+"""Whole guided runs of the paper's two lenses, no two vehicles alike: do all PASS, and how near the truth?
+
+Each vehicle's camera is drawn from its SKU's tolerance; the poses are planned for, and the guidance judges
+by, the nominal camera alone. Pictures are rendered, detectors, session, solver and verdict are those of the
+service (`guided_run`).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bench.guided_run import Guidance, errors_px, guide_vehicle, judge_run, make_vehicle, missed_gates
+from bench.processes import map_trials
+from service.core.planning.plan import plan_pose_set
+from service.core.vision.camera import PINHOLE
+from service.demo.skus import PAPER_SKUS
+from service.simulator.operator import Hand
+from service.simulator.scene import production_scene
+from service.simulator.vehicle import Tolerance, draw_camera
+from service.usecases.sku_document import Revision, SkuDocument
+
+PLAN_SEED = 1
+LARGEST_ERROR_PX, LARGEST_ERROR_SD = 0.5, 3.5
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is tried."""
+
+    seeds: int = 10
+    poses: int = 12
+    candidates: int = 3000
+    processes: int = 2
+
+
+QUICK = Effort(seeds=1, poses=4, candidates=1000)
+
+
+@dataclass(frozen=True)
+class _Task:
+    revision: Revision
+    guidance: Guidance
+    seed: int
+
+
+def run(quick: bool) -> dict[str, Any]:
+    """Return the figures of each lens, `passed` of `runs` first."""
+    return measure(QUICK if quick else Effort())
+
+
+def measure(effort: Effort) -> dict[str, Any]:
+    """Return the figures of an effort."""
+    revisions = [SkuDocument.model_validate(sku).to_revision() for sku in PAPER_SKUS]
+    tasks = [
+        _Task(revision, guidance, seed)
+        for revision in revisions
+        for guidance in [_plan(revision, effort)]
+        for seed in range(effort.seeds)
+    ]
+    rows = map_trials(_guide, tasks, effort.processes)
+    return {
+        **{
+            revision.code: _summary([row for row in rows if row["lens"] == revision.code])
+            for revision in revisions
+        },
+        "poses": effort.poses,
+        "required": {"share_pass": 1.0, "error_px": LARGEST_ERROR_PX, "error_sd": LARGEST_ERROR_SD},
+        "seeds": list(range(effort.seeds)),
+    }
+
+
+def table(result: Mapping[str, Any]) -> str:
+    """Return the figures as text."""
+    lines = [
+        f"guided runs of {result['poses']} poses; largest error over the runs, px and (predicted sd)",
+        f"{'lens':<7}{'PASS':>8}"
+        + "".join(f"{name:>15}" for name in PINHOLE)
+        + f"{'median s':>11}{'refused':>9}",
+    ]
+    for code in (sku["code"] for sku in PAPER_SKUS):
+        part = result[code]
+        errors = "".join(
+            f"{part['worst_error_px'][name]:>8.3f} ({part['worst_error_sd'][name]:.1f})" for name in PINHOLE
+        )
+        passed = f"{part['passed']}/{part['runs']}"
+        lines.append(
+            f"{code:<7}{passed:>8}{errors}{part['run_median_s']:>11.1f}{part['captures_refused']:>9}"
+        )
+        lines += [
+            f"  seed {row['seed']}: {row['verdict']}: {', '.join(row['missed'])}"
+            for row in part["by_seed"]
+            if row["verdict"] != "PASS"
+        ]
+    return "\n".join(lines)
+
+
+def _plan(revision: Revision, effort: Effort) -> Guidance:
+    """Return the guidance of a SKU with its planned poses."""
+    planned = plan_pose_set(
+        revision.intrinsics,
+        revision.target,
+        revision.pose_space,
+        effort.poses,
+        PLAN_SEED,
+        candidates=effort.candidates,
+        sigma_px=revision.corner_noise_px,
+    )
+    return Guidance(revision.intrinsics, revision.target, planned.poses)
+
+
+def _guide(task: _Task) -> dict[str, Any]:
+    """Return what became of one vehicle."""
+    guidance, rng = task.guidance, np.random.default_rng([task.seed, 1])
+    camera = draw_camera(guidance.nominal, Tolerance(), rng)
+    vehicle = make_vehicle(production_scene(camera, guidance.target, task.seed))
+    done = guide_vehicle(vehicle, guidance, Hand(guidance.target), rng)
+    judged = judge_run(done, guidance)
+    row: dict[str, Any] = {
+        "lens": task.revision.code,
+        "seed": task.seed,
+        "complete": done.complete,
+        "elapsed_s": done.elapsed_s,
+        "refused": done.refused,
+    }
+    if judged is None:
+        return {**row, "verdict": "NONE", "missed": ["no calibration"], "error_px": {}, "error_sd": {}}
+    errors = errors_px(judged, camera, PINHOLE)
+    return {
+        **row,
+        "verdict": judged.verdict.value,
+        "missed": missed_gates(judged),
+        "error_px": errors,
+        "error_sd": {name: errors[name] / judged.result.sd[name] for name in PINHOLE},
+        "sigma_px": judged.result.sigma_px,
+    }
+
+
+def _summary(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the figures of one lens from its runs."""
+    passed = sum(row["verdict"] == "PASS" for row in rows)
+    solved = [row for row in rows if row["error_px"]]
+    worst = {
+        key: {name: max((abs(row[key][name]) for row in solved), default=float("inf")) for name in PINHOLE}
+        for key in ("error_px", "error_sd")
+    }
+    return {
+        "passed": passed,
+        "runs": len(rows),
+        "share_pass": passed / len(rows),
+        "worst_error_px": worst["error_px"],
+        "worst_error_sd": worst["error_sd"],
+        "run_median_s": float(np.median([row["elapsed_s"] for row in rows])),
+        "run_max_s": float(np.max([row["elapsed_s"] for row in rows])),
+        "captures_refused": sum(len(row["refused"]) for row in rows),
+        "complete": sum(row["complete"] for row in rows),
+        "by_seed": rows,
+    }
