@@ -22,7 +22,7 @@ LONGEST_WAY_S = 20.0
 
 @dataclass
 class FreehandRun:
-    """Pictures (h, w) in which OpenCV found the board, with its corners; shots in vain; the time it took, s."""
+    """Pictures (h, w) in which OpenCV found the board, with its corners; shots in vain; time taken, s."""
 
     images: list[NDArray[np.uint8]] = field(default_factory=list)
     corners: list[Array] = field(default_factory=list)

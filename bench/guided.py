@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 
 from bench.guided_run import Guidance, errors_px, guide_vehicle, judge_run, make_vehicle, missed_gates
+from bench.paper.lenses import CODES, paper_lens
 from bench.processes import map_trials
 from service.core.planning.plan import plan_pose_set
 from service.core.vision.camera import PINHOLE
-from service.demo.skus import PAPER_SKUS
 from service.simulator.operator import Hand
 from service.simulator.scene import production_scene
 from service.simulator.vehicle import Tolerance, draw_camera
-from service.usecases.sku_document import Revision, SkuDocument
+from service.usecases.sku_document import Revision
 
 PLAN_SEED = 1
 LARGEST_ERROR_PX, LARGEST_ERROR_SD = 0.5, 3.5
@@ -33,6 +33,7 @@ class Effort:
     poses: int = 12
     candidates: int = 3000
     processes: int = 2
+    lenses: tuple[str, ...] = CODES
 
 
 QUICK = Effort(seeds=1, poses=4, candidates=1000)
@@ -52,7 +53,7 @@ def run(quick: bool) -> dict[str, Any]:
 
 def measure(effort: Effort) -> dict[str, Any]:
     """Return the figures of an effort."""
-    revisions = [SkuDocument.model_validate(sku).to_revision() for sku in PAPER_SKUS]
+    revisions = [paper_lens(code) for code in effort.lenses]
     tasks = [
         _Task(revision, guidance, seed)
         for revision in revisions
@@ -79,7 +80,7 @@ def table(result: Mapping[str, Any]) -> str:
         + "".join(f"{name:>15}" for name in PINHOLE)
         + f"{'median s':>11}{'refused':>9}",
     ]
-    for code in (sku["code"] for sku in PAPER_SKUS):
+    for code in (code for code in CODES if code in result):
         part = result[code]
         errors = "".join(
             f"{part['worst_error_px'][name]:>8.3f} ({part['worst_error_sd'][name]:.1f})" for name in PINHOLE

@@ -17,7 +17,6 @@ from bench.freehand_run import FreehandRun, take_freehand
 from bench.guided_run import (
     Guidance,
     GuidedRun,
-    Vehicle,
     guide_vehicle,
     judge_run,
     make_vehicle,
@@ -47,6 +46,9 @@ GUIDED = ("guided", "guided_10", "guided_6")
 ARMS = (FREEHAND, *GUIDED, FREEHAND_OURS, GUIDED_OPENCV)
 
 
+Solved = tuple[Intrinsics, tuple[Array, ...]]
+
+
 @dataclass(frozen=True)
 class Effort:
     """How much is tried: people, views of a freehand run, poses of the three guided runs, processes."""
@@ -56,9 +58,11 @@ class Effort:
     poses: tuple[int, int, int] = (20, 10, 6)
     candidates: int = 3000
     processes: int = 2
+    lenses: tuple[str, ...] = CODES
 
 
-QUICK = Effort(novices=2, views=6, poses=(5, 4, 4), candidates=1000)
+# Arms with as many poses as each other share their runs: quick has only one guided run per person and lens.
+QUICK = Effort(novices=2, views=4, poses=(4, 4, 4), candidates=1000)
 
 
 @dataclass(frozen=True)
@@ -71,10 +75,10 @@ class _Task:
 
 def run_trials(effort: Effort) -> list[dict[str, Any]]:
     """Return one row per lens, novice and arm; see `_row`."""
-    guidances = {lens: _plan(lens, effort) for lens in CODES}
+    guidances = {lens: _plan(lens, effort) for lens in effort.lenses}
     tasks = [
         _Task(lens, novice, guidances[lens], effort.views)
-        for lens in CODES
+        for lens in effort.lenses
         for novice in range(effort.novices)
     ]
     return [row for rows in map_trials(_try, tasks, effort.processes) for row in rows]
@@ -126,18 +130,19 @@ def _try(task: _Task) -> list[dict[str, Any]]:
     target = task.guidances[0].target
     freehand = take_freehand(vehicle, target, novice, task.views, rng=freehand_rng)
     rows = [_freehand_row(task, freehand, target), _ours_of(task, freehand.images, target)]
+    runs: dict[int, GuidedRun] = {}
     for arm, guidance, rng in zip(GUIDED, task.guidances, guided_rngs, strict=True):
-        done = guide_vehicle(vehicle, guidance, Hand(target, None, novice.habits), rng)
-        rows.append(_guided_row(task, arm, done, guidance))
-        if arm == GUIDED[0]:
-            rows.append(_opencv_of(task, done.images, target, vehicle))
-    return rows
+        count = len(guidance.poses)
+        if count not in runs:
+            runs[count] = guide_vehicle(vehicle, guidance, Hand(target, None, novice.habits), rng)
+        rows.append(_guided_row(task, arm, runs[count], guidance))
+    first = runs[len(task.guidances[0].poses)]
+    return [*rows, _opencv_of(task, first.images, target)]
 
 
 def _freehand_row(task: _Task, done: FreehandRun, target: Chessboard) -> dict[str, Any]:
-    solved = calibrate_with_opencv(done.corners, target, true_camera(task.lens).image_size)
     extra = {"elapsed_s": done.elapsed_s, "missed": done.missed, "views": len(done.images)}
-    return _row(task, FREEHAND, solved and (solved.intrinsics, solved.residuals), extra)
+    return _row(task, FREEHAND, _by_opencv(task, done.corners, target), extra)
 
 
 def _ours_of(task: _Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
@@ -178,20 +183,21 @@ def _guided_row(task: _Task, arm: str, done: GuidedRun, guidance: Guidance) -> d
     return _row(task, arm, (judged.result.intrinsics, judged.result.residuals), extra)
 
 
-def _opencv_of(
-    task: _Task, images: Sequence[NDArray[np.uint8]], target: Chessboard, vehicle: Vehicle
-) -> dict[str, Any]:
+def _opencv_of(task: _Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
     """Return the row of guided pictures through OpenCV's detector and solver."""
     corners = [found for image in images if (found := find_with_opencv(image, target)) is not None]
-    solved = calibrate_with_opencv(corners, target, vehicle.camera.image_size)
-    extra = {"views": len(corners)}
-    return _row(task, GUIDED_OPENCV, solved and (solved.intrinsics, solved.residuals), extra)
+    return _row(task, GUIDED_OPENCV, _by_opencv(task, corners, target), {"views": len(corners)})
+
+
+def _by_opencv(task: _Task, corners: Sequence[Array], target: Chessboard) -> Solved | None:
+    solved = calibrate_with_opencv(corners, target, true_camera(task.lens).image_size)
+    return None if solved is None else (solved.intrinsics, solved.residuals)
 
 
 def _row(
     task: _Task,
     arm: str,
-    found: tuple[Intrinsics, tuple[Array, ...]] | None,
+    found: Solved | None,
     extra: dict[str, Any],
 ) -> dict[str, Any]:
     """Return a trial's row; found: intrinsics and residuals, None where there was no calibration."""

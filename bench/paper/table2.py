@@ -43,6 +43,11 @@ PUBLISHED = {
 MARKS = {FREEHAND: ("s", ORANGE), "guided": ("o", BLUE), "guided_10": ("^", GREEN), "guided_6": ("v", GREY)}
 
 
+# The picture's scale is linear so far, where guided results are, and logarithmic where freehand ones are.
+LINEAR_PX = 0.3
+TICKS_PX = (-10.0, -1.0, -0.3, -0.1, 0.0, 0.1, 0.3, 1.0, 10.0)
+
+
 def run(quick: bool) -> dict[str, Any]:
     """Return the table, its trials behind it."""
     return measure(QUICK if quick else Effort())
@@ -69,25 +74,35 @@ def table(result: Mapping[str, Any]) -> str:
 
 
 def plot(result: Mapping[str, Any], path: Path) -> None:
-    """Draw how far each person's fx, fy, cx, cy are from the truth."""
+    """Draw how far each person's fx, fy, cx, cy are from the truth; every panel has the same scale."""
     figure, axes = make_figure(2, 4, (9.6, 5.0))
-    rng = np.random.default_rng(0)
-    for i, (lens, name) in enumerate((lens, name) for lens in CODES for name in NAMES[:4]):
-        truth = result[lens]["truth"][name]
+    panels = [(lens, name) for lens in CODES for name in NAMES[:4]]
+    errors = {(*panel, arm): _errors(result, *panel, arm) for panel in panels for arm in SHOWN}
+    largest = 1.5 * max(abs(error) for each in errors.values() for error in each)
+    for one, (lens, name) in zip(axes, panels, strict=True):
         for place, arm in enumerate(SHOWN):
-            rows = [row for row in result["trials"] if row["lens"] == lens and row["arm"] == arm]
-            errors = [row["parameters"][name] - truth for row in rows if row["parameters"] is not None]
+            each = errors[lens, name, arm]
             mark, colour = MARKS[arm]
-            at = place + rng.uniform(-0.15, 0.15, len(errors))
-            axes[i].plot(at, errors, mark, color=colour, markersize=4, alpha=0.8)
-        axes[i].axhline(0.0, color="black", linewidth=0.6)
-        # Linear around the guided arms, logarithmic where freehand is.
-        axes[i].set_yscale("symlog", linthresh=0.1)
-        axes[i].set_title(f"{lens}: {name}", fontsize=9)
-        axes[i].set_xticks(range(len(SHOWN)), [_label(arm, result) for arm in SHOWN], fontsize=7)
+            at = place + np.linspace(-0.25, 0.25, len(each))
+            one.plot(at, each, mark, color=colour, markersize=4, alpha=0.8)
+        one.axhline(0.0, color="black", linewidth=0.6)
+        one.set_yscale("symlog", linthresh=LINEAR_PX, linscale=2.0)
+        one.set_ylim(-largest, largest)
+        one.set_yticks(TICKS_PX, [f"{tick:g}" for tick in TICKS_PX], fontsize=8)
+        one.set_title(f"{lens}: {name}", fontsize=9)
+        one.set_xticks(
+            range(len(SHOWN)), [_label(arm, result).replace(" ", "\n") for arm in SHOWN], fontsize=7
+        )
     for first in (axes[0], axes[4]):
         first.set_ylabel("estimated − true, px")
     write_png(figure, path)
+
+
+def _errors(result: Mapping[str, Any], lens: str, name: str, arm: str) -> list[float]:
+    """Return how far each person's value of a parameter is from the truth."""
+    truth = result[lens]["truth"][name]
+    rows = [row for row in result["trials"] if row["lens"] == lens and row["arm"] == arm]
+    return [row["parameters"][name] - truth for row in rows if row["parameters"] is not None]
 
 
 def _lens(lens: str, trials: list[dict[str, Any]]) -> dict[str, Any]:
