@@ -62,7 +62,7 @@ class Effort:
 
 
 # Arms with as many poses as each other share their runs: quick has only one guided run per person and lens.
-QUICK = Effort(novices=2, views=4, poses=(4, 4, 4), candidates=1000)
+QUICK = Effort(novices=2, views=4, poses=(3, 3, 3), candidates=1000)
 
 
 @dataclass(frozen=True)

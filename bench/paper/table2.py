@@ -50,12 +50,19 @@ TICKS_PX = (-10.0, -1.0, -0.3, -0.1, 0.0, 0.1, 0.3, 1.0, 10.0)
 
 def run(quick: bool) -> dict[str, Any]:
     """Return the table, its trials behind it."""
-    return measure(QUICK if quick else Effort())
+    effort = QUICK if quick else Effort()
+    return measure(run_trials(effort), effort)
 
 
-def measure(effort: Effort) -> dict[str, Any]:
-    """Return the table of an effort."""
-    trials = run_trials(effort)
+def reuse(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the table of another table2's trials; raises KeyError where it has none."""
+    made_with = {name: result[name] for name in ("quick", "versions", "cores")}
+    effort = Effort(views=result["views"], poses=tuple(result["poses"].values()))
+    return {**measure(result["trials"], effort), **made_with}
+
+
+def measure(trials: list[dict[str, Any]], effort: Effort) -> dict[str, Any]:
+    """Return the table of the trials of an effort."""
     return {
         **{lens: _lens(lens, [row for row in trials if row["lens"] == lens]) for lens in CODES},
         "required_sd": REQUIRED_SD,
