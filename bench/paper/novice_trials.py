@@ -55,7 +55,7 @@ class Effort:
 
     novices: int = 10
     views: int = 20
-    poses: tuple[int, int, int] = (20, 10, 6)
+    poses: tuple[int, ...] = (20, 10, 6)
     candidates: int = 3000
     processes: int = 2
     lenses: tuple[str, ...] = CODES
