@@ -14,10 +14,10 @@ import numpy as np
 from service.core.planning.pose_space import Poses, PoseSpace, sample_poses
 from service.core.vision.camera import LENSES, Intrinsics, project, undistort
 from service.core.vision.target import Chessboard
+from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import whole_image
 from service.core.vision.view_stack import View
-from service.simulator.vehicle import Tolerance, draw_camera
 
 BOARD = Chessboard(9, 6, 0.025)
 SIGMA_PX = 0.1

@@ -24,8 +24,7 @@ from service.api.problems import problem_body, status_of
 from service.api.schemas import write_schemas
 from service.app import MOST_REQUESTS, create_app, largest_socket_message, open_database
 from service.core.errors import BadRequest, ServiceError
-from service.core.planning.document import pose_set_to_dict
-from service.core.planning.plan import plan_pose_set
+from service.core.planning.criterion import OBJECTIVES
 from service.core.quality.gates import Verdict
 from service.core.vision.target import parse_target
 from service.log import configure_logging
@@ -38,6 +37,7 @@ from service.usecases.folder_calibration import calibrate_folder
 from service.usecases.folder_report import report_document, report_text
 from service.usecases.paging import PageRequest
 from service.usecases.plan_report import plan_text
+from service.usecases.planning import PlanRequest, plan_for, planned_document
 from service.usecases.sku_file import read_sku_file
 from service.usecases.text import Label
 
@@ -125,23 +125,26 @@ def _add_plan(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the pose set to this file")
     parser.add_argument("--count", type=int, metavar="N", help="number of poses; by default the SKU's")
     parser.add_argument("--seed", type=int, default=0, help="the same seed gives the same poses (default 0)")
+    parser.add_argument(
+        "--objective", choices=OBJECTIVES, default="balanced", help="what to make small (default balanced)"
+    )
+    parser.add_argument(
+        "--planner",
+        choices=("exchange", "paper"),
+        default="exchange",
+        help="paper: its procedure, to compare",
+    )
     parser.add_argument("--json", action="store_true", help="print the pose set as one JSON object")
     parser.set_defaults(run=_plan)
 
 
 def _plan(arguments: argparse.Namespace) -> int:
     revision = read_sku_file(arguments.sku)
-    pose_set = plan_pose_set(
-        revision.intrinsics,
-        revision.target,
-        revision.pose_space,
-        revision.pose_count if arguments.count is None else arguments.count,
-        arguments.seed,
-        sigma_px=revision.corner_noise_px,
-        fixed=revision.fixed,
-        zone=revision.working_zone,
+    plan = PlanRequest(arguments.seed, objective=arguments.objective, planner=arguments.planner)
+    pose_set = plan_for(revision, plan, count=arguments.count)
+    document = _to_json(
+        {"sku": revision.code, "target": revision.target.spec, **planned_document(revision, pose_set)}
     )
-    document = _to_json({"sku": revision.code, "target": revision.target.spec, **pose_set_to_dict(pose_set)})
     if arguments.out is not None:
         _write(arguments.out, document)
     if arguments.json:

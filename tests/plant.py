@@ -15,12 +15,13 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from service.app import create_app
-from service.core.planning.plan import PoseSet, plan_pose_set
+from service.core.planning.plan import PoseSet
 from service.settings import Settings
 from service.simulator.renderer import render
 from service.simulator.scene import Scene
 from service.storage.words import Role
 from service.usecases.access import create_key
+from service.usecases.planning import PlanRequest, plan_for
 from service.usecases.sku_document import Revision, SkuDocument
 
 # A quarter of a megapixel: everything is as in a plant, only faster.
@@ -48,7 +49,7 @@ def revision() -> Revision:
 def pose_set() -> PoseSet:
     """The poses of the SKU."""
     sku = revision()
-    return plan_pose_set(sku.intrinsics, sku.target, sku.pose_space, sku.pose_count, 1, candidates=300)
+    return plan_for(sku, PlanRequest(seed=1, candidates=300))
 
 
 def poses_json() -> list[JsonObject]:

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics
 from service.core.vision.target import parse_target
+from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Pose
 from service.simulator.renderer import prepare
 from service.simulator.scene import production_scene
-from service.simulator.vehicle import Mismatch, Tolerance, draw_camera, take_captures
+from service.simulator.vehicle import Mismatch, take_captures
 
 # A hand that sees the ghost of the board on its screen, as a guided operator does.
 HAND = Mismatch(position_m=0.002, angle_rad=math.radians(0.7))

@@ -1,16 +1,15 @@
-"""A virtual vehicle: one camera of a SKU as it left its line, and the captures a person takes with it.
+"""The captures that a person takes of a virtual vehicle at prescribed poses.
 
-Not here: guidance and the hand that follows it; this hand is merely a little off the prescribed poses.
+Not here: which camera it has (`core.vision.tolerance`), and guidance and the hand that follows it; this hand
+is merely a little off the prescribed poses.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from types import MappingProxyType
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.simulator.renderer import PreparedScene
@@ -18,22 +17,6 @@ from service.simulator.scene import Scene, true_corners
 
 RETRIES = 40
 PULL_BACK = 0.003  # of the depth, per retry
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """How far a SKU's cameras differ from its nominal: half widths of uniform distributions.
-
-    focal_share: common relative difference of fx and fy; aspect_share: their own; centre_px: of cx and cy;
-    coefficients: by name, where absent the camera has the nominal's.
-    """
-
-    focal_share: float = 0.005
-    aspect_share: float = 0.0003
-    centre_px: float = 4.0
-    coefficients: Mapping[str, float] = field(
-        default_factory=lambda: MappingProxyType({"k1": 0.005, "k2": 0.01, "p1": 0.0003, "p2": 0.0003})
-    )
 
 
 @dataclass(frozen=True)
@@ -55,19 +38,6 @@ class VirtualCapture:
 
     image: NDArray[np.uint8]
     pose: Pose
-
-
-def draw_camera(nominal: Intrinsics, tolerance: Tolerance, rng: np.random.Generator) -> Intrinsics:
-    """Return the true intrinsics of one camera of a SKU."""
-    parameters = dict(nominal.parameters)
-    common = rng.uniform(-1.0, 1.0) * tolerance.focal_share
-    for name in ("fx", "fy"):
-        parameters[name] *= 1.0 + common + rng.uniform(-0.5, 0.5) * tolerance.aspect_share
-    for name in ("cx", "cy"):
-        parameters[name] += rng.uniform(-1.0, 1.0) * tolerance.centre_px
-    for name, half_width in tolerance.coefficients.items():
-        parameters[name] += rng.uniform(-1.0, 1.0) * half_width
-    return Intrinsics.from_parameters(nominal.lens, parameters, nominal.image_size)
 
 
 def take_captures(

@@ -10,10 +10,10 @@ import numpy as np
 
 from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
+from service.core.vision.tolerance import Tolerance, draw_camera
 from service.simulator.frame_source import VirtualSource, make_virtual_source
 from service.simulator.operator import Hand
 from service.simulator.scene import production_scene
-from service.simulator.vehicle import Tolerance, draw_camera
 
 
 def camera_of_serial(nominal: Intrinsics, serial: str) -> Intrinsics:

@@ -18,10 +18,13 @@ from pydantic import (
 )
 
 from service.core.errors import ServiceError
+from service.core.planning.bootstrap import nominal_of_data_sheet
+from service.core.planning.fixture import Box
 from service.core.planning.pose_space import PoseSpace
 from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
-from service.core.vision.camera import Intrinsics, parameter_names
+from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.tolerance import Tolerance
 from service.core.vision.uncertainty import Region
 from service.usecases.text import Code, Label
 
@@ -46,6 +49,8 @@ def bounds_field() -> Any:
     return Field(default=None, strict=False)
 
 
+Coordinate = Annotated[float, Field(ge=-100, le=100)]
+Corner = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
 DegreeRange = Annotated[tuple[Degrees, Degrees], AfterValidator(check_ordered)]
 MetreRange = Annotated[tuple[Metres, Metres], AfterValidator(check_ordered)]
 
@@ -54,6 +59,19 @@ class Document(BaseModel):
     """A part of the document: strict types, finite numbers, no unknown fields."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+class BoxDocument(Document):
+    """Room that a fixture takes: two opposite corners in the camera frame (x right, y down, z away), m."""
+
+    low_m: Corner
+    high_m: Corner
+
+    @model_validator(mode="after")
+    def _is_ordered(self) -> Self:
+        if any(low > high for low, high in zip(self.low_m, self.high_m, strict=True)):
+            raise ValueError("every coordinate of low_m must be at most that of high_m")
+        return self
 
 
 class PoseSpaceDocument(Document):
@@ -70,10 +88,34 @@ class PoseSpaceDocument(Document):
     smallest_square_px: Annotated[float, Field(ge=1, le=1000)] | None = None
     largest_incidence_deg: Annotated[float, Field(gt=0, lt=90)] | None = None
     separation_px: Annotated[float, Field(ge=0, le=10000)] | None = None
+    depth_of_field_m: MetreRange | None = bounds_field()
+    excluded_boxes: Annotated[tuple[BoxDocument, ...], Field(max_length=20, strict=False)] = ()
 
     def to_pose_space(self) -> PoseSpace:
         """Return the core's pose space."""
-        return PoseSpace(**self.model_dump(exclude_none=True))
+        given = self.model_dump(exclude_none=True, exclude={"excluded_boxes"})
+        boxes = tuple(Box(box.low_m, box.high_m) for box in self.excluded_boxes)
+        return PoseSpace(**given, excluded_boxes=boxes)
+
+
+class DataSheetDocument(Document):
+    """What is known of a camera before one was calibrated: its field of view."""
+
+    hfov_deg: Annotated[float, Field(gt=0, lt=360)]
+    vfov_deg: Annotated[float, Field(gt=0, lt=360)] | None = None
+
+
+class ToleranceDocument(Document):
+    """How far cameras differ from the nominal: half widths. What is not given takes the service's default."""
+
+    focal_share: Annotated[float, Field(ge=0, le=0.5)] | None = None
+    aspect_share: Annotated[float, Field(ge=0, le=0.5)] | None = None
+    centre_px: Annotated[float, Field(ge=0, le=1000)] | None = None
+    coefficients: dict[str, Annotated[float, Field(ge=0, le=10)]] | None = None
+
+    def to_tolerance(self) -> Tolerance:
+        """Return the core's tolerance."""
+        return Tolerance(**self.model_dump(exclude_none=True))
 
 
 class RegionDocument(Document):
@@ -106,6 +148,8 @@ class Revision:
     pose_count: int
     pose_space: PoseSpace
     corner_noise_px: float
+    tolerance: Tolerance
+    required_mapping_px: float
     fixed: tuple[str, ...]
     working_zone: Region | None
     valid_region: Region | None
@@ -135,15 +179,25 @@ class SkuDocument(Document):
     lens: Literal["pinhole5"] = Field(description="Lens model.")
     image_size: tuple[Pixels, Pixels] = Field(strict=False, description="Width and height, px.")
     nominal: dict[str, Finite] = Field(
-        description="Intrinsics of the data sheet: fx fy cx cy, and coefficients."
+        default_factory=dict,
+        description="Nominal intrinsics: fx fy cx cy, and coefficients; without it, give a data_sheet.",
     )
+    data_sheet: DataSheetDocument | None = Field(
+        default=None, description="Field of view of a camera whose intrinsics are not known yet."
+    )
+    tolerance: ToleranceDocument = ToleranceDocument()
     target: str = Field(
         max_length=60, description="Pattern, for example chessboard:9x6:25mm (inner corners)."
     )
     pose_count: Annotated[int, Field(ge=3, le=100)] = 12
     pose_space: PoseSpaceDocument = PoseSpaceDocument()
     corner_noise_px: Annotated[float, Field(gt=0, le=10)] = Field(
-        default=0.1, description="Expected sd of a detected corner, px; the planner's noise."
+        default=0.1,
+        description="Expected sd of a detected corner of a frontal board, px; the planner scales it by pose.",
+    )
+    required_mapping_px: Annotated[float, Field(gt=0, le=100)] | None = Field(
+        default=None,
+        description="Mean mapping error that a set must promise; null: where the gate still gives PASS.",
     )
     fixed: tuple[str, ...] = Field(
         default=(), strict=False, description="Parameters that stay at their nominal value."
@@ -173,6 +227,19 @@ class SkuDocument(Document):
         parse_or_complain(limits_for, (64, 64), limits)
         return limits
 
+    @model_validator(mode="before")
+    @classmethod
+    def _nominal_of_the_data_sheet(cls, given: Any) -> Any:
+        """Let a data sheet stand in for a nominal that is not given."""
+        if not isinstance(given, dict) or given.get("nominal") or given.get("data_sheet") is None:
+            return given
+        sheet = DataSheetDocument.model_validate(given["data_sheet"])
+        lens, size = given.get("lens"), given.get("image_size")
+        if lens not in LENSES or not isinstance(size, list | tuple) or len(size) != 2:
+            return given
+        nominal = parse_or_complain(nominal_of_data_sheet, lens, tuple(size), sheet.hfov_deg, sheet.vfov_deg)
+        return {**given, "nominal": nominal.parameters}
+
     @model_validator(mode="after")
     def _nominal_fits_the_lens(self) -> Self:
         parse_or_complain(Intrinsics.from_parameters, self.lens, self.nominal, self.image_size)
@@ -185,6 +252,8 @@ class SkuDocument(Document):
 
     def to_revision(self) -> Revision:
         """Return the core's values."""
+        limits = limits_for(self.image_size, self.limits)
+        passing_px = limits.zone_mapping_px * limits.share("zone_mapping_px")
         return Revision(
             code=self.code,
             name=self.name,
@@ -193,10 +262,12 @@ class SkuDocument(Document):
             pose_count=self.pose_count,
             pose_space=self.pose_space.to_pose_space(),
             corner_noise_px=self.corner_noise_px,
+            tolerance=self.tolerance.to_tolerance(),
+            required_mapping_px=self.required_mapping_px or passing_px,
             fixed=self.fixed,
             working_zone=None if self.working_zone is None else self.working_zone.to_region(),
             valid_region=None if self.valid_region is None else self.valid_region.to_region(),
-            limits=limits_for(self.image_size, self.limits),
+            limits=limits,
         )
 
 

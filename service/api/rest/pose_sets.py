@@ -14,10 +14,11 @@ from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, Of, PageOf, ReadDb
 from service.api.rest.jobs import Job
 from service.api.shapes import Answer, Id, Page, Request, RevisionNumber, SkuCode
-from service.core.planning.scoring import Objective
+from service.core.planning.criterion import Objective, Weights
+from service.core.planning.robustness import DRAWS
 from service.storage.words import Publication
 from service.usecases import pose_sets
-from service.usecases.planning import PlanRequest
+from service.usecases.planning import Planner, PlanRequest
 
 router = APIRouter(tags=["Pose sets"])
 
@@ -32,6 +33,20 @@ class PoseShape(Request):
     tvec: Vector3
 
 
+class WeightsShape(Request):
+    """How much each aim counts, in units of what an average set reaches; not all zero."""
+
+    parameters: Annotated[float, Field(ge=0, le=1000)] = 0.0
+    mapping_mean: Annotated[float, Field(ge=0, le=1000)] = 0.0
+    mapping_worst: Annotated[float, Field(ge=0, le=1000)] = 0.0
+
+    @model_validator(mode="after")
+    def _one_counts(self) -> Self:
+        if not any((self.parameters, self.mapping_mean, self.mapping_worst)):
+            raise ValueError("at least one weight must be greater than 0")
+        return self
+
+
 class NewPoseSet(Request):
     """How to plan, or the poses themselves: without any field the service plans with its defaults."""
 
@@ -39,7 +54,20 @@ class NewPoseSet(Request):
     candidates: int = Field(default=3000, ge=100, le=20000, description="Poses to choose from.")
     objective: Objective = Field(
         default="balanced",
-        description="What to make small: the paper's parameter norm, the mapping error, or both.",
+        description="What to make small: the paper's parameter norm, the mapping error (mean and worst, or "
+        "worst alone), or norm and mean.",
+    )
+    weights: WeightsShape | None = Field(
+        default=None, description="A mix of your own instead of an objective."
+    )
+    draws: int = Field(
+        default=DRAWS,
+        ge=1,
+        le=32,
+        description="Cameras within the SKU's tolerance, and hands, that judge the set; 1: the nominal only.",
+    )
+    planner: Planner = Field(
+        default="exchange", description="`paper`: the paper's own procedure, as a baseline to compare with."
     )
     poses: list[PoseShape] | None = Field(
         default=None, min_length=3, max_length=100, description="Import these poses instead of planning."
@@ -49,8 +77,11 @@ class NewPoseSet(Request):
 
     @model_validator(mode="after")
     def _plans_or_imports(self) -> Self:
-        if self.poses is not None and self.model_fields_set & {"seed", "candidates", "objective"}:
-            raise ValueError("give either poses to import, or seed, candidates and objective to plan")
+        planned_by = self.model_fields_set - {"poses"}
+        if self.poses is not None and planned_by:
+            raise ValueError(f"give either poses to import, or {', '.join(sorted(planned_by))} to plan")
+        if self.weights is not None and "objective" in self.model_fields_set:
+            raise ValueError("give either an objective or weights")
         return self
 
 
@@ -90,6 +121,15 @@ class PredictedDiversity(Answer):
     coverage: float
 
 
+class PredictedCount(Answer):
+    """What the best set of so many poses promises."""
+
+    poses: int
+    norm_px: float
+    mapping_mean_px: float | None
+    mapping_worst_px: float | None
+
+
 class Prediction(Answer):
     """The accuracy that a set promises at the SKU's corner noise, before anybody lifts a board."""
 
@@ -98,6 +138,14 @@ class Prediction(Answer):
     mapping: PredictedMapping
     condition: float
     diversity: PredictedDiversity
+    pose_sigma_px: list[float] = Field(default=[], description="Expected corner noise at each pose, px.")
+    curve: list[PredictedCount] = Field(default=[], description="What other numbers of poses would promise.")
+    required_mapping_px: float | None = Field(
+        default=None, description="Mean mapping error that the SKU requires, px."
+    )
+    smallest_count: int | None = Field(
+        default=None, description="Fewest poses that promise it; null where none of the curve does."
+    )
 
 
 class PoseSet(Answer):
@@ -154,7 +202,15 @@ def create_pose_set(
         poses = [(pose.rvec, pose.tvec) for pose in body.poses]
         made = pose_sets.import_pose_set(db, code, number, poses, who=who, now=now)
     else:
-        plan = PlanRequest(body.seed, body.candidates, body.objective)
+        weights = None if body.weights is None else Weights(**body.weights.model_dump())
+        plan = PlanRequest(
+            body.seed,
+            body.candidates,
+            body.objective,
+            weights=weights,
+            draws=body.draws,
+            planner=body.planner,
+        )
         made = pose_sets.request_pose_set(db, of.jobs, code, number, plan, who=who, now=now)
     return PoseSetRequested.model_validate(made)
 

@@ -4,17 +4,21 @@ Not here: reading or writing files.
 """
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from service.core.errors import PoseSetInvalid
+from service.core.planning.criterion import OBJECTIVES, PRESETS, Weights
+from service.core.planning.curve import CurvePoint
 from service.core.planning.diversity import Diversity
-from service.core.planning.plan import PoseSet
-from service.core.planning.scoring import OBJECTIVES
+from service.core.planning.paper import PAPER_OBJECTIVE
+from service.core.planning.plan import WEIGHTED, PoseSet
 from service.core.vision.transforms import Array, Pose
 from service.core.vision.uncertainty import MappingError
 
+KNOWN_OBJECTIVES = (*OBJECTIVES, WEIGHTED, PAPER_OBJECTIVE)
 REMEDY = "export it again with `dmscal plan`."
 
 
@@ -34,6 +38,8 @@ def pose_set_to_dict(pose_set: PoseSet) -> dict[str, Any]:
                 "distance_ratio": diversity.distance_ratio,
                 "coverage": diversity.coverage,
             },
+            "pose_sigma_px": list(pose_set.pose_sigma_px),
+            "curve": [{**asdict(p), **_finite_mapping(p)} for p in pose_set.curve],
         },
         "provenance": {
             "seed": pose_set.seed,
@@ -41,16 +47,22 @@ def pose_set_to_dict(pose_set: PoseSet) -> dict[str, Any]:
             "sigma_px": pose_set.sigma_px,
             "objective": pose_set.objective,
             "planner": pose_set.planner,
+            "weights": asdict(pose_set.weights),
+            "draws": pose_set.draws,
+            "noise_source": pose_set.noise_source,
         },
     }
 
 
 def pose_set_from_dict(document: Mapping[str, Any]) -> PoseSet:
-    """Return the pose set of a dictionary; PoseSetInvalid says what is missing or of the wrong kind."""
+    """Return the pose set of a dictionary; PoseSetInvalid says what is missing or of the wrong kind.
+
+    What older planners did not know is read as they planned: one noise, one camera, no curve.
+    """
     try:
         prediction, provenance = document["prediction"], document["provenance"]
-        if provenance["objective"] not in OBJECTIVES:
-            raise PoseSetInvalid(f"provenance.objective must be one of {', '.join(OBJECTIVES)}.")
+        if provenance["objective"] not in KNOWN_OBJECTIVES:
+            raise PoseSetInvalid(f"provenance.objective must be one of {', '.join(KNOWN_OBJECTIVES)}.")
         return PoseSet(
             poses=tuple(pose_from_dict(pose) for pose in document["poses"]),
             expected_norm_px=float(prediction["norm_px"]),
@@ -65,6 +77,11 @@ def pose_set_from_dict(document: Mapping[str, Any]) -> PoseSet:
             sigma_px=float(provenance["sigma_px"]),
             objective=provenance["objective"],
             planner=str(provenance["planner"]),
+            weights=_weights(provenance),
+            draws=int(provenance.get("draws", 1)),
+            noise_source=str(provenance.get("noise_source", "one for all poses")),
+            pose_sigma_px=tuple(float(v) for v in prediction.get("pose_sigma_px", ())),
+            curve=tuple(_curve_point(point) for point in prediction.get("curve", ())),
         )
     except KeyError as error:
         raise PoseSetInvalid(
@@ -92,6 +109,29 @@ def _vector(document: Mapping[str, Any], name: str) -> Array:
     if vector.shape != (3,) or not np.all(np.isfinite(vector)):
         raise PoseSetInvalid(f"{name} of a pose must be three finite numbers.")
     return vector
+
+
+def _weights(provenance: Mapping[str, Any]) -> Weights:
+    stored = provenance.get("weights")
+    if stored is None:
+        return PRESETS.get(provenance["objective"], PRESETS["parameters"])
+    return Weights(**{name: float(value) for name, value in stored.items()})
+
+
+def _curve_point(stored: Mapping[str, Any]) -> CurvePoint:
+    return CurvePoint(
+        int(stored["poses"]),
+        float(stored["norm_px"]),
+        _number(stored["mapping_mean_px"]),
+        _number(stored["mapping_worst_px"]),
+    )
+
+
+def _finite_mapping(point: CurvePoint) -> dict[str, float | None]:
+    return {
+        "mapping_mean_px": _finite(point.mapping_mean_px),
+        "mapping_worst_px": _finite(point.mapping_worst_px),
+    }
 
 
 def _finite(value: float) -> float | None:

@@ -1,18 +1,18 @@
 """The search for the best set of poses: greedy from a weak prior, then Fedorov's exchange, several starts.
 
-Minimises tr(W (ΣΛ)⁻¹) over sets of N candidates that keep their distance from each other. Source: Fedorov
-(1972), Theory of Optimal Experiments. Not here: what W means (`scoring`), in which order the poses are
-taken (`ordering`).
+Minimises tr(W (ΣΛ)⁻¹), averaged over draws, over sets of N candidates that keep their distance from each
+other. Source: Fedorov (1972), Theory of Optimal Experiments. Not here: what W means (`criterion`), in which
+order the poses are taken (`ordering`).
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from service.core.errors import PoseSetInfeasible
+from service.core.planning.criterion import Criterion
 from service.core.planning.pose_space import Indices, Mask
-from service.core.planning.scoring import Objective, objective_metric
 from service.core.vision.transforms import Array
 
 Progress = Callable[[float], None]
@@ -25,6 +25,8 @@ RESTART_SHARE = 0.25
 # An exchange tries this many of the steepest candidates; with 100, 400 or all of them the sets came out the
 # same.
 SHORTLIST = 150
+# Rounds in which the weight moves to the pixels that the best set serves worst.
+WORST_ROUNDS = 4
 
 
 def select_poses(
@@ -32,36 +34,39 @@ def select_poses(
     image_points: Array,
     count: int,
     separation_px: float,
+    criterion: Criterion,
     *,
-    H: Array | None = None,
-    objective: Objective = "parameters",
     seed: int = 0,
     starts: int = 4,
     slots: Sequence[Mask] = (),
+    begin: Sequence[int] = (),
     progress: Progress | None = None,
 ) -> Indices:
     """Return the indices (count,) of the best set found among m candidates; the same seed gives the same set.
 
-    information: (m, p, p). image_points: (m, n, 2) px; the mean corner distance of any two chosen poses is
-    at least separation_px. H: (p, p) mapping metric, needed unless the objective is `parameters`. slots:
-    for the first places of the result, which candidates (m,) may take them. progress: called with the
-    share done; what it raises ends the search. Raises PoseSetInfeasible when no set keeps to all that.
+    information: (m, p, p), or (d, m, p, p) of d draws over which a set is averaged. image_points: (m, n, 2)
+    px; the mean corner distance of any two chosen poses is at least separation_px. slots: for the first
+    places of the result, which candidates (m,) may take them. begin: candidates that the first places start
+    with. progress: called with the share done; what it raises ends the search. Raises PoseSetInfeasible when
+    no set keeps to all that.
     """
-    metric = objective_metric(objective, information, H)
-    problem = _Problem.of(information, image_points, separation_px, metric, slots)
+    problem = _Problem.of(information, image_points, separation_px, criterion, slots)
     rng = np.random.default_rng(seed)
+    rounds = starts + (WORST_ROUNDS if criterion.has_worst else 0)
     best: tuple[float, list[int]] | None = None
     for start in range(starts):
         # The first start sees every candidate; the others see a part, which leads them elsewhere.
-        seen = np.ones(len(information), bool) if start == 0 else rng.random(len(information)) < RESTART_SHARE
-        chosen = _greedy(problem, count, seen)
+        seen = np.ones(problem.size, bool) if start == 0 else rng.random(problem.size) < RESTART_SHARE
+        chosen = _greedy(problem, count, seen, begin)
         if chosen is None:
             continue
-        value, chosen = _exchange(problem, chosen, _part_of(progress, start, starts))
-        if best is None or value < best[0] * (1.0 - SMALLEST_GAIN):
-            best = value, chosen
+        chosen = _exchange(problem, chosen, _part_of(progress, start, rounds))
+        best = _better(best, problem, chosen)
     if best is None:
         raise _too_crowded(count, separation_px)
+    for step in range(starts, rounds):
+        problem = problem.towards_the_worst(best[1])
+        best = _better(best, problem, _exchange(problem, best[1], _part_of(progress, step, rounds)))
     return np.array(best[1], dtype=np.int64)
 
 
@@ -74,10 +79,13 @@ def corner_distances(image_points: Array, i: int) -> Array:
 
 @dataclass(frozen=True)
 class _Problem:
-    """Candidates in scaled parameters, with W; `near` remembers who is too near to a chosen one."""
+    """Candidates (d, m, p, p) in scaled parameters, with W; `near`: who is too near to a chosen one."""
 
     information: Array
+    flat: Array
     metric: Array
+    scaling: Array
+    criterion: Criterion
     image_points: Array
     separation_px: float
     slots: Sequence[Mask]
@@ -89,17 +97,43 @@ class _Problem:
         information: Array,
         image_points: Array,
         separation_px: float,
-        metric: Array,
+        criterion: Criterion,
         slots: Sequence[Mask],
     ) -> "_Problem":
         """Scale the parameters to unit mean information: k3 and fx differ by orders of magnitude."""
-        scale = 1.0 / np.sqrt(np.diagonal(information.mean(axis=0)))
+        draws = information if information.ndim == 4 else information[None]
+        scale = 1.0 / np.sqrt(np.diagonal(draws.mean(axis=(0, 1))))
         scaling = scale * scale[:, None]
-        return cls(information * scaling, metric * scaling, image_points, separation_px, slots)
+        scaled = np.ascontiguousarray(draws * scaling)
+        flat = scaled.reshape(*scaled.shape[:2], -1)
+        metric = criterion.metric * scaling
+        return cls(scaled, flat, metric, scaling, criterion, image_points, separation_px, slots)
+
+    @property
+    def size(self) -> int:
+        return int(self.information.shape[1])
+
+    def value(self, chosen: list[int]) -> float:
+        """Return what a set is worth, with the true worst."""
+        return self.criterion.value(self._covariances(chosen))
+
+    def towards_the_worst(self, chosen: list[int]) -> "_Problem":
+        """Return the problem with more weight on the pixels that a set serves worst."""
+        criterion = self.criterion.towards_the_worst(self._covariances(chosen))
+        return replace(self, criterion=criterion, metric=criterion.metric * self.scaling)
+
+    def _covariances(self, chosen: list[int]) -> Array:
+        covariances: Array = np.linalg.inv(self.total(chosen)) * self.scaling
+        return (covariances + np.swapaxes(covariances, 1, 2)) / 2.0
+
+    def total(self, chosen: list[int]) -> Array:
+        """Return the information (d, p, p) of a set."""
+        total: Array = PRIOR * 1e-6 * np.eye(self.metric.shape[0]) + self.information[:, chosen].sum(axis=1)
+        return total
 
     def allowed(self, others: list[int], slot: int) -> Mask:
         """Return which candidates (m,) may take a slot beside the others."""
-        allowed = np.ones(len(self.information), bool)
+        allowed = np.ones(self.size, bool)
         if slot < len(self.slots):
             allowed &= self.slots[slot]
         for i in others:
@@ -110,31 +144,41 @@ class _Problem:
         return allowed
 
     def values(self, total: Array, candidates: Indices) -> Array:
-        """Return tr(W (total + Λ)⁻¹) for each candidate (c,)."""
-        inverse = np.linalg.inv(total + self.information[candidates])
-        values: Array = inverse.reshape(len(candidates), -1) @ self.metric.ravel()
+        """Return tr(W (total + Λ)⁻¹), mean over draws, for each candidate (c,); total: (d', p, p), d' ≤ d."""
+        inverse = np.linalg.inv(total[:, None] + self.information[: len(total), candidates])
+        values: Array = (inverse.reshape(len(total), len(candidates), -1) @ self.metric.ravel()).mean(axis=0)
         return values
 
+    def slopes(self, total: Array) -> Array:
+        """Return by how much a little of each candidate (m,) would lower the value of a total (d, p, p)."""
+        inverse = np.linalg.inv(total)
+        gradients = (inverse @ self.metric @ inverse).reshape(len(total), -1, 1)
+        slopes: Array = (self.flat @ gradients)[..., 0].mean(axis=0)
+        return slopes
 
-def _greedy(problem: _Problem, count: int, seen: Mask) -> list[int] | None:
-    """Return a set that adds the best candidate at each step, or None where no candidate is left to add."""
-    total = PRIOR * np.eye(problem.information.shape[-1])
-    chosen: list[int] = []
-    for slot in range(count):
+
+def _greedy(problem: _Problem, count: int, seen: Mask, begin: Sequence[int]) -> list[int] | None:
+    """Return a set that adds the best candidate at each step, or None where no candidate is left to add.
+
+    By the first draw alone: the exchange that follows judges by all of them.
+    """
+    chosen = list(begin)[:count]
+    total = PRIOR * np.eye(problem.metric.shape[0]) + problem.information[:1, chosen].sum(axis=1)
+    for slot in range(len(chosen), count):
         candidates = np.flatnonzero(problem.allowed(chosen, slot) & seen)
         if candidates.size == 0:
             return None
         best = int(candidates[np.argmin(problem.values(total, candidates))])
         chosen.append(best)
-        total = total + problem.information[best]
+        total = total + problem.information[:1, best]
     return chosen
 
 
-def _exchange(problem: _Problem, chosen: list[int], progress: Progress) -> tuple[float, list[int]]:
-    """Return the value and the set after exchanging one pose at a time until no exchange helps."""
+def _exchange(problem: _Problem, chosen: list[int], progress: Progress) -> list[int]:
+    """Return the set after exchanging one pose at a time until no exchange helps."""
     chosen = list(chosen)
-    total = PRIOR * 1e-6 * np.eye(problem.information.shape[-1]) + problem.information[chosen].sum(axis=0)
-    value = float(np.sum(np.linalg.inv(total) * problem.metric))
+    total = problem.total(chosen)
+    value = float(np.mean(np.sum(np.linalg.inv(total) * problem.metric, axis=(1, 2))))
     for sweep in range(LARGEST_SWEEPS):
         before = value
         for slot in range(len(chosen)):
@@ -143,30 +187,36 @@ def _exchange(problem: _Problem, chosen: list[int], progress: Progress) -> tuple
         if value > before * (1.0 - SMALLEST_GAIN):
             break
     progress(1.0)
-    return value, chosen
+    return chosen
 
 
 def _improve_slot(
     problem: _Problem, chosen: list[int], slot: int, value: float, total: Array
 ) -> tuple[float, Array]:
     """Put the best candidate into a slot of `chosen`; return the new value and the new total information."""
-    inverse = np.linalg.inv(total)
     # tr(W (T + Λj − Λi)⁻¹) is convex: it cannot fall below value − (gj − gi), so that only gj > gi can help.
-    gradient = inverse @ problem.metric @ inverse
-    slope = problem.information.reshape(len(problem.information), -1) @ gradient.ravel()
+    slope = problem.slopes(total)
     others = chosen[:slot] + chosen[slot + 1 :]
     candidates = np.flatnonzero(problem.allowed(others, slot) & (slope > slope[chosen[slot]]))
     if candidates.size == 0:
         return value, total
     if candidates.size > SHORTLIST:
         candidates = candidates[np.argpartition(slope[candidates], -SHORTLIST)[-SHORTLIST:]]
-    without = total - problem.information[chosen[slot]]
+    without = total - problem.information[:, chosen[slot]]
     values = problem.values(without, candidates)
     best = int(np.argmin(values))
     if values[best] >= value * (1.0 - SMALLEST_GAIN):
         return value, total
     chosen[slot] = int(candidates[best])
-    return float(values[best]), without + problem.information[chosen[slot]]
+    return float(values[best]), without + problem.information[:, chosen[slot]]
+
+
+def _better(
+    best: tuple[float, list[int]] | None, problem: _Problem, chosen: list[int]
+) -> tuple[float, list[int]]:
+    """Return the better one of a set found before and a new one."""
+    value = problem.value(chosen)
+    return (value, chosen) if best is None or value < best[0] * (1.0 - SMALLEST_GAIN) else best
 
 
 def _part_of(progress: Progress | None, start: int, starts: int) -> Progress:

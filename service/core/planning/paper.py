@@ -6,20 +6,27 @@ also rewards luck. Not here: the planner that the service uses (`plan`).
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
 from service.core.errors import PoseSetInfeasible, ServiceError
+from service.core.planning.optimiser import Progress
+from service.core.planning.plan import PoseSet, describe_set
 from service.core.planning.pose_space import Indices, Poses, PoseSpace, check_pose_space, infeasibilities
+from service.core.planning.prediction import zone_within
 from service.core.planning.scoring import paper_score
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, project, undistort
 from service.core.vision.residuals import mean_reprojection_error
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, rotation_matrix
+from service.core.vision.uncertainty import Region
 
 LARGEST_BATCHES = 200
+PAPER_PLANNER: Final = "paper-1"
+PAPER_OBJECTIVE: Final = "score"
 
 
 @dataclass(frozen=True)
@@ -30,6 +37,46 @@ class ScoredSet:
     mre_px: float
     norm: float
     score: float
+
+
+def plan_as_the_paper(
+    intrinsics: Intrinsics,
+    target: Chessboard,
+    space: PoseSpace,
+    count: int,
+    seed: int,
+    *,
+    candidates: int = 3000,
+    sets: int = 1000,
+    sigma_px: float = 0.1,
+    alpha: float = 1.0,
+    beta: float = 1.0,
+    progress: Progress | None = None,
+    zone: Region | None = None,
+) -> PoseSet:
+    """Return the set that the paper's procedure picks, in the order it was drawn, with what it really
+    promises.
+
+    progress: as for `plan_pose_set`. Raises what `sample_uniform_poses` raises, and PoseSetInfeasible where
+    the pick does not determine the camera.
+    """
+    rng = np.random.default_rng(seed)
+    poses = sample_uniform_poses(space, intrinsics, target, candidates, rng)
+    scored = score_random_sets(
+        intrinsics, target, poses, count, rng, sets=sets, sigma_px=sigma_px, alpha=alpha, beta=beta
+    )
+    best: ScoredSet | None = None
+    for done, one in enumerate(scored, start=1):
+        best = one if best is None or one.score > best.score else best
+        if progress is not None:
+            progress(done / sets)
+    if best is None:
+        raise PoseSetInfeasible("The paper's procedure needs at least one candidate set.", sets=sets)
+    zone = zone or zone_within(intrinsics.image_size, space.image_margin_px)
+    described = describe_set(intrinsics, target, poses[best.indices], zone, sigma_px=sigma_px, space=space)
+    return replace(
+        described, seed=seed, candidates=candidates, objective=PAPER_OBJECTIVE, planner=PAPER_PLANNER
+    )
 
 
 def sample_uniform_poses(

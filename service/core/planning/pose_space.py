@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from service.core.errors import PoseSpaceEmpty
+from service.core.planning.fixture import Box, touches_a_box
 from service.core.planning.visibility import LENS_SHARE, measure_visibility, place_targets
 from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Chessboard
@@ -30,6 +31,10 @@ REMEDIES: Mapping[str, str] = {
     "lower smallest_square_px, or take larger squares",
     "largest_incidence_deg": "boards are seen too obliquely: allow less yaw and pitch, or a larger "
     "largest_incidence_deg",
+    "depth_of_field_m": "boards leave the depth of field: bring distance_m within it, allow less tilt, or "
+    "widen depth_of_field_m if the lens is sharp there",
+    "excluded_boxes": "plates touch the fixture: move or shrink the boxes (camera frame, m), or take a "
+    "smaller board",
     "lens": "boards reach beyond where the lens model is monotone: check its coefficients, or keep boards "
     "off the image corners with a larger image_margin_px",
 }
@@ -44,7 +49,8 @@ class PoseSpace:
     the optical axis. image_margin_px: least distance of every corner from the image border.
     smallest_square_px: shortest side of a square in the image. largest_incidence_deg: between the board's
     normal and the line of sight to any corner. separation_px: least mean corner distance between two poses
-    of a set.
+    of a set. depth_of_field_m: nearest and farthest depth of any corner at which the picture is sharp; None:
+    everywhere. excluded_boxes: room that the fixture takes.
     """
 
     distance_m: tuple[float, float] = (0.25, 1.0)
@@ -55,6 +61,8 @@ class PoseSpace:
     smallest_square_px: float = 12.0
     largest_incidence_deg: float = 60.0
     separation_px: float = 80.0
+    depth_of_field_m: tuple[float, float] | None = None
+    excluded_boxes: tuple[Box, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -116,27 +124,30 @@ def infeasibilities(
 ) -> dict[str, Mask]:
     """Return, for each bound by name, which of the m poses break it: masks (m,)."""
     seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
+    near, far = space.depth_of_field_m or (0.0, np.inf)
     # Written as "not within", so that NaN (behind the camera, does not fit) breaks the bound.
     return {
         "image_margin_px": ~(seen.clearance_px >= space.image_margin_px),
         "smallest_square_px": seen.smallest_square_px < space.smallest_square_px,
         "largest_incidence_deg": seen.incidence_rad > np.deg2rad(space.largest_incidence_deg),
+        "depth_of_field_m": ~((seen.nearest_m >= near) & (seen.farthest_m <= far)),
+        "excluded_boxes": touches_a_box(space.excluded_boxes, target, poses.rotations, poses.translations),
         "lens": seen.lens_share > LENS_SHARE,
     }
 
 
 def check_pose_space(space: PoseSpace) -> PoseSpace:
     """Return the space, or raise PoseSpaceEmpty naming the bounds that cross or cannot be met."""
-    for name in ("distance_m", "yaw_deg", "pitch_deg", "roll_deg"):
-        low, high = getattr(space, name)
+    ranges = {name: getattr(space, name) for name in ("distance_m", "yaw_deg", "pitch_deg", "roll_deg")}
+    if space.depth_of_field_m is not None:
+        ranges["depth_of_field_m"] = space.depth_of_field_m
+    for name, (low, high) in ranges.items():
         if not low <= high:
             raise PoseSpaceEmpty(
                 f"{name} runs from {low:g} to {high:g}; give the smaller bound first.", bound=name
             )
-    if not space.distance_m[0] > 0:
-        raise PoseSpaceEmpty(
-            "distance_m must be positive: the board is in front of the camera.", bound="distance_m"
-        )
+        if name.endswith("_m") and not low > 0:
+            raise PoseSpaceEmpty(f"{name} must be positive: the board is in front of the camera.", bound=name)
     if not 0 < space.largest_incidence_deg < 90:
         raise PoseSpaceEmpty(
             "largest_incidence_deg must lie between 0 and 90.", bound="largest_incidence_deg"

@@ -40,13 +40,17 @@ def predict_accuracy(
 ) -> Prediction:
     """Return the accuracy of a calibration from m poses with corner noise sigma_px, one for all or (m,).
 
-    Raises PoseSetInfeasible where the poses do not determine the parameters that are not fixed.
+    The solver weighs all corners alike, so that with Λ for unit noise, M = ΣΛ and S = Σσ²Λ, its covariance is
+    M⁻¹ S M⁻¹. Raises PoseSetInfeasible where the poses do not determine the parameters that are not fixed.
     """
     names = parameter_names(intrinsics.lens)
     free = free_parameters(intrinsics.lens, fixed)
-    information = pose_information(intrinsics, target, poses, sigma_px).sum(axis=0)[np.ix_(free, free)]
+    by_pose = pose_information(intrinsics, target, poses, 1.0)[:, free[:, None], free]
+    information = by_pose.sum(axis=0)
+    unit = expected_covariance(information)
+    noise = np.broadcast_to(np.asarray(sigma_px, dtype=np.float64), (len(poses),)) ** 2
     covariance = np.zeros((len(names), len(names)))
-    covariance[np.ix_(free, free)] = expected_covariance(information)
+    covariance[np.ix_(free, free)] = unit @ np.einsum("m,mij->ij", noise, by_pose) @ unit
     sd = np.sqrt(np.diagonal(covariance))
     return Prediction(
         norm_px=float(np.sqrt(np.trace(covariance))),

@@ -1,17 +1,14 @@
-"""What a set of poses is worth: covariance, expected norm, objectives, the paper's score, degeneracy.
+"""What a set of poses is worth: covariance, expected norm, the paper's score, degeneracy.
 
-Not here: what one pose contributes (`information`), how a set is found (`optimiser`).
+Not here: what one pose contributes (`information`), which of these a plan makes small (`criterion`).
 """
 
-from typing import Final, Literal, get_args
+from typing import Final
 
 import numpy as np
 
 from service.core.errors import PoseSetInfeasible
 from service.core.vision.transforms import Array
-
-Objective = Literal["balanced", "parameters", "mapping"]
-OBJECTIVES: Final = get_args(Objective)
 
 # Sets of tilted boards lie between 1e2 and 1e6; parallel boards, which leave focal length and depth tied,
 # above 1e12.
@@ -48,25 +45,6 @@ def expected_covariance(information: Array) -> Array:
 def expected_norm(information: Array) -> float:
     """Return √tr (ΣΛ)⁻¹ = √E‖Ĉ − C‖² of a set's information (p, p); PoseSetInfeasible if degenerate."""
     return float(np.sqrt(np.trace(expected_covariance(information))))
-
-
-def objective_metric(objective: Objective, information: Array, H: Array | None) -> Array:
-    """Return W (p, p), so that tr(W Σ) is what the objective wants small.
-
-    `parameters`: W = I, the paper's ‖Ĉ − C‖². `mapping`: W = H of
-    service.core.vision.uncertainty.parameter_metric. `balanced`: their sum, each divided by what an average
-    set reaches; information (m, p, p) of the candidates tells.
-    """
-    identity = np.eye(information.shape[-1])
-    if objective == "parameters":
-        return identity
-    if H is None:
-        raise ValueError(f"The objective '{objective}' needs the mapping metric H.")
-    if objective == "mapping":
-        return H
-    covariance = expected_covariance(information.mean(axis=0))
-    balanced: Array = identity / np.trace(covariance) + H / np.trace(H @ covariance)
-    return balanced
 
 
 def paper_score(mre_px: float, norm: float, alpha: float = 1.0, beta: float = 1.0) -> float:

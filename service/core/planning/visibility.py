@@ -29,13 +29,17 @@ class Visibility:
     clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
     shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
     to a corner. lens_share: largest ideal radius of a corner over the radius up to which the lens model is
-    monotone.
+    monotone. nearest_m, farthest_m: smallest and largest depth of a corner. skew: mean |sin 2θ| of the edges'
+    angle θ to the pixel grid, of rows or columns, whichever is less: 0 where edges run along the grid.
     """
 
     clearance_px: Array
     smallest_square_px: Array
     incidence_rad: Array
     lens_share: Array
+    nearest_m: Array
+    farthest_m: Array
+    skew: Array
 
 
 def measure_visibility(
@@ -54,6 +58,9 @@ def measure_visibility(
         smallest_square_px=_shortest_side(pixels, target),
         incidence_rad=np.arccos(np.clip(cosine, -1.0, 1.0)).max(axis=1),
         lens_share=np.linalg.norm(ideal, axis=-1).max(axis=1) / limit,
+        nearest_m=depth.min(axis=1),
+        farthest_m=depth.max(axis=1),
+        skew=_skew(pixels, target),
     )
 
 
@@ -104,3 +111,14 @@ def _shortest_side(pixels: Array, target: Chessboard) -> Array:
     along_columns = np.linalg.norm(np.diff(grid, axis=1), axis=-1).min(axis=(1, 2))
     shortest: Array = np.minimum(along_rows, along_columns)
     return shortest
+
+
+def _skew(pixels: Array, target: Chessboard) -> Array:
+    """Return how far the edges of image points (m, n, 2) run off the pixel grid: (m,), 0 to 1."""
+    grid = pixels.reshape(-1, target.rows, target.columns, 2)
+    means = []
+    for axis in (1, 2):
+        x, y = np.moveaxis(np.diff(grid, axis=axis), -1, 0)
+        means.append(np.mean(np.abs(2.0 * x * y) / (x * x + y * y), axis=(1, 2)))
+    skew: Array = np.minimum(*means)
+    return skew

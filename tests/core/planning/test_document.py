@@ -7,6 +7,7 @@ import pytest
 
 from service.core.errors import PoseSetInvalid
 from service.core.planning.document import pose_from_dict, pose_set_from_dict, pose_set_to_dict
+from service.core.planning.noise import FITTED_NOISE
 from service.core.planning.plan import PLANNER, plan_pose_set
 from service.core.planning.pose_space import PoseSpace
 from service.core.vision.uncertainty import MappingError
@@ -37,7 +38,30 @@ def test_the_document_has_the_agreed_shape() -> None:
         "sigma_px": 0.1,
         "objective": "balanced",
         "planner": PLANNER,
+        "weights": {"parameters": 1.0, "mapping_mean": 1.0, "mapping_worst": 0.0},
+        "draws": 1,
+        "noise_source": "one for all poses",
     }
+
+
+def test_what_older_planners_did_not_know_is_read_as_they_planned() -> None:
+    old = document()
+    for name in ("weights", "draws", "noise_source"):
+        del old["provenance"][name]
+    for name in ("curve", "pose_sigma_px"):
+        del old["prediction"][name]
+    assert pose_set_to_dict(pose_set_from_dict(old)) == document()
+
+
+def test_a_curve_and_noise_by_pose_come_back_as_they_were() -> None:
+    full = plan_pose_set(
+        LENS1, BOARD, PoseSpace(), 4, 1, candidates=100, sigma_px=FITTED_NOISE, with_curve=True
+    )
+    found = pose_set_from_dict(json.loads(json.dumps(pose_set_to_dict(full), allow_nan=False)))
+    assert found.curve == full.curve
+    assert len(found.curve) > 3
+    assert found.pose_sigma_px == full.pose_sigma_px
+    assert found.noise_source == full.noise_source
 
 
 def test_a_zone_that_the_lens_does_not_reach_is_null_and_comes_back_as_infinite() -> None:

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 from service.core.errors import IntrinsicsInvalid, PoseSetInfeasible
-from service.core.planning.plan import FAR_SHARE, plan_pose_set
+from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import Poses, PoseSpace, infeasibilities
 from service.core.planning.prediction import predict_accuracy, zone_within
+from service.core.planning.variety import FAR_SHARE
 from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.transforms import stack_poses

@@ -8,7 +8,6 @@ from service.core.planning.scoring import (
     condition_number,
     expected_covariance,
     expected_norm,
-    objective_metric,
     paper_score,
 )
 from service.core.vision.transforms import Array, rotation_matrix
@@ -52,18 +51,6 @@ def test_covariance_is_the_inverse_of_the_information() -> None:
     covariance = expected_covariance(information)
     np.testing.assert_allclose(covariance @ information, np.eye(9), atol=1e-6)
     assert expected_norm(information) == pytest.approx(np.sqrt(np.trace(covariance)))
-
-
-def test_balanced_weighs_both_objectives_alike_for_an_average_set() -> None:
-    information = boards([(30, 0), (0, 30), (-30, 10), (10, -30)], [0.3, 0.4, 0.5, 0.6])
-    H = np.diag(np.arange(1.0, 10.0))
-    W = objective_metric("balanced", information[None], H)
-    assert np.trace(W @ expected_covariance(information)) == pytest.approx(2.0)
-
-
-def test_objectives_of_the_image_need_the_metric_of_the_image() -> None:
-    with pytest.raises(ValueError, match="mapping metric"):
-        objective_metric("mapping", np.eye(9)[None], None)
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,12 @@ export interface BoardPose {
   tvec: [number, number, number];
 }
 
+/** Room that a fixture takes: two opposite corners in the camera frame (x right, y down, z away), m. */
+export interface BoxDocument {
+  low_m: [number, number, number];
+  high_m: [number, number, number];
+}
+
 /** One accepted image of a run. */
 export interface Capture {
   id: string;
@@ -80,6 +86,12 @@ export interface CaptureDetail {
   sharpness: Sharpness;
   parity_separation: number;
   contrast: number;
+}
+
+/** What is known of a camera before one was calibrated: its field of view. */
+export interface DataSheetDocument {
+  hfov_deg: number;
+  vfov_deg?: number | null;
 }
 
 /** A measurement that failed, and in how many of the runs. */
@@ -165,8 +177,16 @@ export interface NewPoseSet {
   seed?: number;
   /** Poses to choose from. */
   candidates?: number;
-  /** What to make small: the paper's parameter norm, the mapping error, or both. */
-  objective?: "balanced" | "parameters" | "mapping";
+  /**
+   * What to make small: the paper's parameter norm, the mapping error (mean and worst, or worst alone), or norm and mean.
+   */
+  objective?: "balanced" | "parameters" | "mapping" | "worst";
+  /** A mix of your own instead of an objective. */
+  weights?: WeightsShape | null;
+  /** Cameras within the SKU's tolerance, and hands, that judge the set; 1: the nominal only. */
+  draws?: number;
+  /** `paper`: the paper's own procedure, as a baseline to compare with. */
+  planner?: "exchange" | "paper";
   /** Import these poses instead of planning. */
   poses?: PoseShape[] | null;
 }
@@ -319,6 +339,16 @@ export interface PoseSpaceDocument {
   smallest_square_px?: number | null;
   largest_incidence_deg?: number | null;
   separation_px?: number | null;
+  depth_of_field_m?: [number, number] | null;
+  excluded_boxes?: BoxDocument[];
+}
+
+/** What the best set of so many poses promises. */
+export interface PredictedCount {
+  poses: number;
+  norm_px: number;
+  mapping_mean_px: number | null;
+  mapping_worst_px: number | null;
 }
 
 /** How much the poses differ: tilts, ratio of distances, share of the image that corners cover. */
@@ -348,6 +378,14 @@ export interface Prediction {
   mapping: PredictedMapping;
   condition: number;
   diversity: PredictedDiversity;
+  /** Expected corner noise at each pose, px. */
+  pose_sigma_px?: number[];
+  /** What other numbers of poses would promise. */
+  curve?: PredictedCount[];
+  /** Mean mapping error that the SKU requires, px. */
+  required_mapping_px?: number | null;
+  /** Fewest poses that promise it; null where none of the curve does. */
+  smallest_count?: number | null;
 }
 
 /** A problem document (RFC 9457). */
@@ -525,14 +563,19 @@ export interface SkuDocument {
   lens: "pinhole5";
   /** Width and height, px. */
   image_size: [number, number];
-  /** Intrinsics of the data sheet: fx fy cx cy, and coefficients. */
-  nominal: Record<string, number>;
+  /** Nominal intrinsics: fx fy cx cy, and coefficients; without it, give a data_sheet. */
+  nominal?: Record<string, number>;
+  /** Field of view of a camera whose intrinsics are not known yet. */
+  data_sheet?: DataSheetDocument | null;
+  tolerance?: ToleranceDocument;
   /** Pattern, for example chessboard:9x6:25mm (inner corners). */
   target: string;
   pose_count?: number;
   pose_space?: PoseSpaceDocument;
-  /** Expected sd of a detected corner, px; the planner's noise. */
+  /** Expected sd of a detected corner of a frontal board, px; the planner scales it by pose. */
   corner_noise_px?: number;
+  /** Mean mapping error that a set must promise; null: where the gate still gives PASS. */
+  required_mapping_px?: number | null;
   /** Parameters that stay at their nominal value. */
   fixed?: string[];
   /** Where the camera works; null: default. */
@@ -590,6 +633,14 @@ export interface Target {
   created_at: string;
 }
 
+/** How far cameras differ from the nominal: half widths. What is not given takes the service's default. */
+export interface ToleranceDocument {
+  focal_share?: number | null;
+  aspect_share?: number | null;
+  centre_px?: number | null;
+  coefficients?: Record<string, number> | null;
+}
+
 /** The runs of one serial, newest first, and the result of the latest finished one. */
 export interface Vehicle {
   serial: string;
@@ -607,6 +658,13 @@ export interface ViewResult {
   rms_px: number;
   max_px: number;
   pose: BoardPose;
+}
+
+/** How much each aim counts, in units of what an average set reaches; not all zero. */
+export interface WeightsShape {
+  parameters?: number;
+  mapping_mean?: number;
+  mapping_worst?: number;
 }
 
 /**
