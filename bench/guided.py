@@ -14,11 +14,11 @@ import numpy as np
 from bench.guided_run import Guidance, errors_px, guide_vehicle, judge_run, make_vehicle, missed_gates
 from bench.paper.lenses import CODES, paper_lens
 from bench.processes import map_trials
-from service.core.planning.plan import plan_pose_set
 from service.core.vision.camera import PINHOLE
+from service.core.vision.tolerance import draw_camera
 from service.simulator.operator import Hand
 from service.simulator.scene import production_scene
-from service.simulator.vehicle import Tolerance, draw_camera
+from service.usecases.planning import PlanRequest, plan_for
 from service.usecases.sku_document import Revision
 
 PLAN_SEED = 1
@@ -98,23 +98,16 @@ def table(result: Mapping[str, Any]) -> str:
 
 
 def _plan(revision: Revision, effort: Effort) -> Guidance:
-    """Return the guidance of a SKU with its planned poses."""
-    planned = plan_pose_set(
-        revision.intrinsics,
-        revision.target,
-        revision.pose_space,
-        effort.poses,
-        PLAN_SEED,
-        candidates=effort.candidates,
-        sigma_px=revision.corner_noise_px,
-    )
+    """Return the guidance of a SKU with its poses, planned as the service plans them."""
+    wish = PlanRequest(seed=PLAN_SEED, candidates=effort.candidates)
+    planned = plan_for(revision, wish, count=effort.poses)
     return Guidance(revision.intrinsics, revision.target, planned.poses)
 
 
 def _guide(task: _Task) -> dict[str, Any]:
     """Return what became of one vehicle."""
     guidance, rng = task.guidance, np.random.default_rng([task.seed, 1])
-    camera = draw_camera(guidance.nominal, Tolerance(), rng)
+    camera = draw_camera(guidance.nominal, task.revision.tolerance, rng)
     vehicle = make_vehicle(production_scene(camera, guidance.target, task.seed))
     done = guide_vehicle(vehicle, guidance, Hand(guidance.target), rng)
     judged = judge_run(done, guidance)

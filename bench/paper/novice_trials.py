@@ -26,17 +26,17 @@ from bench.opencv_flow import calibrate_with_opencv, find_with_opencv
 from bench.paper.lenses import CODES, paper_lens
 from bench.processes import map_trials
 from service.core.errors import ServiceError
-from service.core.planning.plan import plan_pose_set
 from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
 from service.core.vision.residuals import mean_reprojection_error
 from service.core.vision.target import Chessboard
+from service.core.vision.tolerance import draw_camera
 from service.core.vision.transforms import Array
 from service.simulator.novice import draw_novice
 from service.simulator.operator import Hand
 from service.simulator.scene import Scene, production_scene
-from service.simulator.vehicle import Tolerance, draw_camera
+from service.usecases.planning import PlanRequest, plan_for
 
 SEED = 500
 PLAN_SEED = 1
@@ -92,7 +92,7 @@ def true_camera(lens: str) -> Intrinsics:
 def nominal_camera(lens: str) -> Intrinsics:
     """Return what the guidance takes the camera for."""
     rng = np.random.default_rng([SEED, CODES.index(lens)])
-    return draw_camera(true_camera(lens), Tolerance(), rng)
+    return draw_camera(true_camera(lens), paper_lens(lens).tolerance, rng)
 
 
 def trial_scene(lens: str, seed: int) -> Scene:
@@ -103,23 +103,10 @@ def trial_scene(lens: str, seed: int) -> Scene:
 
 def _plan(lens: str, effort: Effort) -> tuple[Guidance, ...]:
     """Return the guidance of each guided arm, planned for the nominal camera."""
-    sku, nominal = paper_lens(lens), nominal_camera(lens)
-    return tuple(
-        Guidance(
-            nominal,
-            sku.target,
-            plan_pose_set(
-                nominal,
-                sku.target,
-                sku.pose_space,
-                count,
-                PLAN_SEED,
-                candidates=effort.candidates,
-                sigma_px=sku.corner_noise_px,
-            ).poses,
-        )
-        for count in effort.poses
-    )
+    sku = replace(paper_lens(lens), intrinsics=nominal_camera(lens))
+    wish = PlanRequest(seed=PLAN_SEED, candidates=effort.candidates)
+    sets = [plan_for(sku, wish, count=count) for count in effort.poses]
+    return tuple(Guidance(sku.intrinsics, sku.target, planned.poses) for planned in sets)
 
 
 def _try(task: _Task) -> list[dict[str, Any]]:
