@@ -19,7 +19,6 @@ from service.core.vision.tolerance import draw_camera
 from service.simulator.operator import Hand
 from service.simulator.scene import production_scene
 from service.usecases.planning import PlanRequest, plan_for
-from service.usecases.sku_document import Revision
 
 PLAN_SEED = 1
 LARGEST_ERROR_PX, LARGEST_ERROR_SD = 0.5, 3.5
@@ -40,8 +39,10 @@ QUICK = Effort(seeds=1, poses=4, candidates=1000)
 
 
 @dataclass(frozen=True)
-class _Task:
-    revision: Revision
+class Task:
+    """A vehicle to be guided: its SKU, what guidance knows, and the seed of its camera and hand."""
+
+    lens: str
     guidance: Guidance
     seed: int
 
@@ -53,23 +54,23 @@ def run(quick: bool) -> dict[str, Any]:
 
 def measure(effort: Effort) -> dict[str, Any]:
     """Return the figures of an effort."""
-    revisions = [paper_lens(code) for code in effort.lenses]
-    tasks = [
-        _Task(revision, guidance, seed)
-        for revision in revisions
-        for guidance in [_plan(revision, effort)]
-        for seed in range(effort.seeds)
-    ]
-    rows = map_trials(_guide, tasks, effort.processes)
+    rows = map_trials(_guide, make_tasks(effort), effort.processes)
     return {
-        **{
-            revision.code: _summary([row for row in rows if row["lens"] == revision.code])
-            for revision in revisions
-        },
+        **{lens: _summary([row for row in rows if row["lens"] == lens]) for lens in effort.lenses},
         "poses": effort.poses,
         "required": {"share_pass": 1.0, "error_px": LARGEST_ERROR_PX, "error_sd": LARGEST_ERROR_SD},
         "seeds": list(range(effort.seeds)),
     }
+
+
+def make_tasks(effort: Effort) -> list[Task]:
+    """Return the vehicles to be guided, as they are sent to other processes."""
+    return [
+        Task(lens, guidance, seed)
+        for lens in effort.lenses
+        for guidance in [_plan(lens, effort)]
+        for seed in range(effort.seeds)
+    ]
 
 
 def table(result: Mapping[str, Any]) -> str:
@@ -97,22 +98,23 @@ def table(result: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _plan(revision: Revision, effort: Effort) -> Guidance:
+def _plan(lens: str, effort: Effort) -> Guidance:
     """Return the guidance of a SKU with its poses, planned as the service plans them."""
+    revision = paper_lens(lens)
     wish = PlanRequest(seed=PLAN_SEED, candidates=effort.candidates)
     planned = plan_for(revision, wish, count=effort.poses)
     return Guidance(revision.intrinsics, revision.target, planned.poses)
 
 
-def _guide(task: _Task) -> dict[str, Any]:
+def _guide(task: Task) -> dict[str, Any]:
     """Return what became of one vehicle."""
     guidance, rng = task.guidance, np.random.default_rng([task.seed, 1])
-    camera = draw_camera(guidance.nominal, task.revision.tolerance, rng)
+    camera = draw_camera(guidance.nominal, paper_lens(task.lens).tolerance, rng)
     vehicle = make_vehicle(production_scene(camera, guidance.target, task.seed))
     done = guide_vehicle(vehicle, guidance, Hand(guidance.target), rng)
     judged = judge_run(done, guidance)
     row: dict[str, Any] = {
-        "lens": task.revision.code,
+        "lens": task.lens,
         "seed": task.seed,
         "complete": done.complete,
         "elapsed_s": done.elapsed_s,

@@ -66,7 +66,9 @@ QUICK = Effort(novices=2, views=4, poses=(3, 3, 3), candidates=1000)
 
 
 @dataclass(frozen=True)
-class _Task:
+class Task:
+    """A person before a lens: what guides them in each guided arm, and how many views they take freehand."""
+
     lens: str
     novice: int
     guidances: tuple[Guidance, ...]
@@ -75,13 +77,17 @@ class _Task:
 
 def run_trials(effort: Effort) -> list[dict[str, Any]]:
     """Return one row per lens, novice and arm; see `_row`."""
+    return [row for rows in map_trials(_try, make_tasks(effort), effort.processes) for row in rows]
+
+
+def make_tasks(effort: Effort) -> list[Task]:
+    """Return the people before the lenses, as they are sent to other processes."""
     guidances = {lens: _plan(lens, effort) for lens in effort.lenses}
-    tasks = [
-        _Task(lens, novice, guidances[lens], effort.views)
+    return [
+        Task(lens, novice, guidances[lens], effort.views)
         for lens in effort.lenses
         for novice in range(effort.novices)
     ]
-    return [row for rows in map_trials(_try, tasks, effort.processes) for row in rows]
 
 
 def true_camera(lens: str) -> Intrinsics:
@@ -109,7 +115,7 @@ def _plan(lens: str, effort: Effort) -> tuple[Guidance, ...]:
     return tuple(Guidance(sku.intrinsics, sku.target, planned.poses) for planned in sets)
 
 
-def _try(task: _Task) -> list[dict[str, Any]]:
+def _try(task: Task) -> list[dict[str, Any]]:
     """Return the rows of one person before one lens."""
     person_rng, freehand_rng, *guided_rngs = np.random.default_rng([SEED, task.novice]).spawn(5)
     novice = draw_novice(person_rng)
@@ -127,12 +133,12 @@ def _try(task: _Task) -> list[dict[str, Any]]:
     return [*rows, _opencv_of(task, first.images, target)]
 
 
-def _freehand_row(task: _Task, done: FreehandRun, target: Chessboard) -> dict[str, Any]:
+def _freehand_row(task: Task, done: FreehandRun, target: Chessboard) -> dict[str, Any]:
     extra = {"elapsed_s": done.elapsed_s, "missed": done.missed, "views": len(done.images)}
     return _row(task, FREEHAND, _by_opencv(task, done.corners, target), extra)
 
 
-def _ours_of(task: _Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
+def _ours_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
     """Return the row of freehand pictures through our detector and solver."""
     views = [view for image in images if (view := _our_view(image, target)) is not None]
     extra = {"views": len(views)}
@@ -151,7 +157,7 @@ def _our_view(image: NDArray[np.uint8], target: Chessboard) -> View | None:
         return None
 
 
-def _guided_row(task: _Task, arm: str, done: GuidedRun, guidance: Guidance) -> dict[str, Any]:
+def _guided_row(task: Task, arm: str, done: GuidedRun, guidance: Guidance) -> dict[str, Any]:
     extra: dict[str, Any] = {
         "elapsed_s": done.elapsed_s,
         "missed": len(done.refused),
@@ -170,19 +176,19 @@ def _guided_row(task: _Task, arm: str, done: GuidedRun, guidance: Guidance) -> d
     return _row(task, arm, (judged.result.intrinsics, judged.result.residuals), extra)
 
 
-def _opencv_of(task: _Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
+def _opencv_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
     """Return the row of guided pictures through OpenCV's detector and solver."""
     corners = [found for image in images if (found := find_with_opencv(image, target)) is not None]
     return _row(task, GUIDED_OPENCV, _by_opencv(task, corners, target), {"views": len(corners)})
 
 
-def _by_opencv(task: _Task, corners: Sequence[Array], target: Chessboard) -> Solved | None:
+def _by_opencv(task: Task, corners: Sequence[Array], target: Chessboard) -> Solved | None:
     solved = calibrate_with_opencv(corners, target, true_camera(task.lens).image_size)
     return None if solved is None else (solved.intrinsics, solved.residuals)
 
 
 def _row(
-    task: _Task,
+    task: Task,
     arm: str,
     found: Solved | None,
     extra: dict[str, Any],

@@ -156,22 +156,35 @@ def _arm(rows: list[dict[str, Any]], truth: Mapping[str, float]) -> dict[str, An
 def _lines(lens: str, result: Mapping[str, Any]) -> list[str]:
     """Return the lines of one lens."""
     part, published = result[lens], result["published_sd"][lens]
-    lines = [f"{lens:<24}" + "".join(f"{name:>20}" for name in NAMES)]
-    lines.append(f"{'  truth':<24}" + "".join(f"{part['truth'][name]:>20.4f}" for name in NAMES))
+    lines = [f"{lens:<24}" + "".join(f"{name:>18}" for name in NAMES)]
+    lines.append(f"{'  truth':<24}" + "".join(f"{part['truth'][name]:>18.4f}" for name in NAMES))
     for arm in ARMS:
-        cells = "".join(f"{_mean_and_sd(part[arm][name]):>20}" for name in NAMES)
+        cells = "".join(f"{_mean_and_sd(part[arm][name], name):>18}" for name in NAMES)
         solved = f"{part[arm]['solved']}/{part[arm]['people']}"
         lines.append(f"  {_label(arm, result):<16}{solved:>6}{cells}")
     for arm, label in ((FREEHAND, "paper, OpenCV: sd"), ("guided", "paper, guided: sd")):
-        lines.append(f"  {label:<22}" + "".join(f"{published[arm][name]:>20.4f}" for name in NAMES))
-    ratios = "".join(f"{_or_none(part['ratio'][name], '.0f'):>20}" for name in NAMES)
+        lines.append(f"  {label:<22}" + "".join(f"{published[arm][name]:>18.4g}" for name in NAMES))
+    ratios = "".join(f"{_or_none(part['ratio'][name], '.1f'):>18}" for name in NAMES)
     lines.append(f"  {'sd freehand / guided':<22}" + ratios)
     missed = ", ".join(part["requirements_missed"]) or "none"
-    return [*lines, f"  required sd of guided missed: {missed}"]
+    return [
+        *lines,
+        f"  required sd of guided missed: {missed}",
+        *map(_run_words, GUIDED, [part] * len(GUIDED)),
+    ]
 
 
-def _mean_and_sd(figures: Mapping[str, float | None]) -> str:
-    return f"{_or_none(figures['mean'], '.4f')} ± {_or_none(figures['std'], '.2g')}"
+def _run_words(arm: str, part: Mapping[str, Any]) -> str:
+    """Return how the runs of a guided arm went, in a line."""
+    verdicts = part[arm]["verdicts"]
+    counts = ", ".join(f"{verdict} {verdicts.count(verdict)}" for verdict in sorted(set(verdicts)))
+    times = f"median {_or_none(part[arm]['median_s'], '.0f')} s, freehand {part[FREEHAND]['median_s']:.0f} s"
+    return f"  {arm}: {counts or 'no verdict'}; {times}"
+
+
+def _mean_and_sd(figures: Mapping[str, float | None], name: str) -> str:
+    places = ".4f" if name.startswith("k") else ".2f"
+    return f"{_or_none(figures['mean'], places)} ± {_or_none(figures['std'], '.2g')}"
 
 
 def _or_none(value: float | None, form: str) -> str:
