@@ -34,7 +34,7 @@ from typing import Final
 
 import numpy as np
 
-from service.core.vision.camera import Intrinsics, undistort
+from service.core.vision.camera import Intrinsics, unproject
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.simulator.operator import Habits, Hand
@@ -133,10 +133,10 @@ def choose_view(style: Style, last: Choice | None, rng: np.random.Generator) -> 
 def pose_of_choice(choice: Choice, camera: Intrinsics, target: Chessboard) -> Pose:
     """Return the pose `T_cam_board` at which a camera shows a board as it was thought of."""
     half = 0.5 * np.array(camera.image_size)
-    x, y = undistort(camera, half + choice.place * half)
+    direction = unproject(camera, half + choice.place * half)
     width_m = (target.columns - 1) * target.square_m
     distance = camera.vector[0] * width_m / (choice.width_share * camera.image_size[0])
-    ray = np.array([x, y, 1.0]) / np.hypot(1.0, np.hypot(x, y))
+    ray = direction / np.linalg.norm(direction)
     centre = ray * np.clip(distance, NEAREST_M, FARTHEST_M)
     turns = np.clip(choice.turns, -MOST_TILT_RAD, MOST_TILT_RAD)
     pitch, yaw, roll = (rotation_matrix(turn) for turn in np.diag(turns))
