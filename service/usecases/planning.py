@@ -36,8 +36,8 @@ class PlanRequest:
     """How to plan: the same values give the same poses.
 
     planner: ours, or the paper's procedure as the baseline to compare with. weights: instead of an objective.
-    draws: cameras and hands that a set is judged by. follows: the set, of another revision, that this one
-    continues after a better estimate of the camera.
+    draws: cameras and hands that a set is judged by. sets: random ones that the paper's procedure tries.
+    follows: the set, of another revision, that this one continues after a better estimate of the camera.
     """
 
     seed: int = 0
@@ -46,6 +46,7 @@ class PlanRequest:
     weights: Weights | None = None
     draws: int = DRAWS
     planner: Planner = "exchange"
+    sets: int = 1000
     follows: str | None = None
 
     def to_json(self) -> JsonObject:
@@ -76,6 +77,7 @@ def plan_for(
             wanted,
             plan.seed,
             candidates=plan.candidates,
+            sets=plan.sets,
             sigma_px=revision.corner_noise_px,
             progress=progress,
             zone=revision.working_zone,
