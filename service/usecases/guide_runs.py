@@ -18,7 +18,7 @@ from service.core.vision.transforms import Pose
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow, StationRow
 from service.storage.words import FrameOrigin, Publication
 from service.usecases.audit import record
-from service.usecases.frame_address import origin_of
+from service.usecases.frame_address import HELD, origin_of
 from service.usecases.observation import pose_from_json
 from service.usecases.run_filter import RunFilter
 from service.usecases.runs import Order, get_run, open_run
@@ -72,6 +72,11 @@ class StationView:
     origin: FrameOrigin
     run_id: UUID | None
     skus: list[str]
+
+    @property
+    def moves_board(self) -> bool:
+        """Whether its board is virtual and moved by whoever is at the kiosk."""
+        return self.source == HELD
 
 
 def read_station(session: Session, code: str) -> StationView:

@@ -118,8 +118,26 @@ class Ack(Request):
     sequence: Sequence
 
 
+class MoveBoard(Request):
+    """Move the virtual board of a station with the source `virtual:mouse`; moves add up until the next frame.
+
+    Directions and angles are those of the raw image, as in `Difference`. What would take the board's centre
+    out of the picture, or its face away from the camera, is not done.
+    """
+
+    type: Literal["move_board"]
+    right_px: float = Field(default=0.0, ge=-10_000, le=10_000, allow_inf_nan=False)
+    down_px: float = Field(default=0.0, ge=-10_000, le=10_000, allow_inf_nan=False)
+    closer_share: float = Field(
+        default=0.0, ge=-0.5, le=1.0, description="Its distance is divided by 1 + this.", allow_inf_nan=False
+    )
+    tilt_deg: float = Field(default=0.0, ge=-90, le=90, allow_inf_nan=False)
+    turn_deg: float = Field(default=0.0, ge=-90, le=90, allow_inf_nan=False)
+    roll_deg: float = Field(default=0.0, ge=-180, le=180, allow_inf_nan=False)
+
+
 ClientMessage = Annotated[
-    Hello | OpenRun | Capture | Undo | Retake | Abort | NextVehicle | SetAutomatic | Ack,
+    Hello | OpenRun | Capture | Undo | Retake | Abort | NextVehicle | SetAutomatic | MoveBoard | Ack,
     Field(discriminator="type"),
 ]
 
@@ -209,6 +227,7 @@ class Welcome(Told):
     role: Literal["kiosk", "monitor"]
     run_id: UUID | None
     skus: list[str] = Field(description="Codes that a run can be opened for, newest first.")
+    moves_board: bool = Field(description="Whether this client moves a virtual board: `move_board`.")
 
 
 class CaptureAccepted(Told):

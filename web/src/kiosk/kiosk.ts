@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import type { ClientMessage, Run, ServerMessage, State } from "../generated/protocol";
 import { Camera } from "./camera";
 import { unpack } from "./framed";
+import { bounded, joined, NO_MOVE, unmirrored, type Move } from "./hand_moves";
 import { FIRST_STATE, isLive, nextState, screenOf, type KioskEvent } from "./kiosk_state";
 import { isMirrored, rememberMirrored } from "./mirror";
 import { Pace } from "./pace";
@@ -43,6 +44,7 @@ export class Kiosk {
     full: (message) => this.socket.sendPicture(message),
     failed: (why) => this.tell({ code: `camera-${why}`, title: "", detail: "" }),
   });
+  private move: Move | null = null;
   private decoding = Promise.resolve();
   private heardAt = 0;
   private judgedAt = 0;
@@ -121,6 +123,12 @@ export class Kiosk {
     this.say({ type: "set_automatic", automatic });
   }
 
+  /** Moves the virtual board, as the display shows it; what comes between two drawings is said at once. */
+  moveBoard(move: Partial<Move>): void {
+    if (this.move === null) requestAnimationFrame(() => this.sayMove());
+    this.move = joined(this.move ?? NO_MOVE, unmirrored(move, this.mirrored.value));
+  }
+
   setMirrored(mirrored: boolean): void {
     rememberMirrored(this.station, mirrored);
     this.mirrored.value = mirrored;
@@ -148,6 +156,11 @@ export class Kiosk {
 
   private say(message: ClientMessage): void {
     this.socket.say(message);
+  }
+
+  private sayMove(): void {
+    if (this.move !== null) this.say({ type: "move_board", ...bounded(this.move) });
+    this.move = null;
   }
 
   private refuseScan(open: string): void {

@@ -33,6 +33,7 @@ export function welcome(more: Partial<Welcome>): Welcome {
     role: "kiosk",
     run_id: null,
     skus: ["lens1"],
+    moves_board: false,
     ...more,
   };
 }

@@ -1,9 +1,11 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
 import { enKiosk } from "./en_kiosk";
+import { enHelp } from "./en_help";
 import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
+  ...enHelp,
   ...enReview,
 
   language: "English",
