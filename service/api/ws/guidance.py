@@ -6,7 +6,6 @@ Not here: what a message leads to (`desk`), and the messages themselves (`protoc
 
 import asyncio
 import logging
-import math
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
 from functools import partial
@@ -15,7 +14,7 @@ from typing import Any
 from anyio import create_task_group, to_thread
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
-from service.api.auth import Guides, SocketRoles, check_role
+from service.api.auth import ROLES_FROM, Guides, SocketRoles, check_role
 from service.api.ws import protocol
 from service.api.ws.desk import Desk, Desks
 from service.api.ws.drivers import (
@@ -39,8 +38,8 @@ from service.core.errors import (
     Unavailable,
 )
 from service.log import logged_with
-from service.ports import BoardMove, FrameSourceMaker, HeldSourceMaker
-from service.storage.words import FrameOrigin
+from service.ports import FrameSourceMaker, HeldSourceMaker
+from service.storage.words import FrameOrigin, Role
 from service.usecases.access import identify
 from service.usecases.guide import Plant
 from service.usecases.guide_camera import CameraOpener
@@ -152,6 +151,7 @@ async def _serve(visit: Visit) -> None:
             role=visit.link.role,
             run_id=visit.desk.session.run.id if visit.desk.session else station.run_id,
             skus=station.skus,
+            may_override=visit.is_kiosk and visit.link.caller.role in ROLES_FROM[Role.ENGINEER],
             moves_board=visit.is_kiosk and station.moves_board,
         )
     )
@@ -215,6 +215,9 @@ async def _obey(visit: Visit, text: str) -> None:
             await visit.desk.open_run(Wish(serial, sku, purpose), visit.link.caller.name)
         case protocol.NextVehicle():
             await visit.desk.next_vehicle()
+        case protocol.Capture(override=True):
+            check_role(visit.link.caller, Role.ENGINEER)
+            await visit.desk.ask(lambda session: session.capture(is_forced=True))
         case protocol.MoveBoard():
             _move_board(visit, message)
         case protocol.Hello():
@@ -229,16 +232,7 @@ def _move_board(visit: Visit, message: protocol.MoveBoard) -> None:
             "The board of this station is not moved from a screen. Use a station with the source "
             "'virtual:mouse'."
         )
-    visit.moves.put(
-        BoardMove(
-            right_px=message.right_px,
-            down_px=message.down_px,
-            closer_share=message.closer_share,
-            tilt_rad=math.radians(message.tilt_deg),
-            turn_rad=math.radians(message.turn_deg),
-            roll_rad=math.radians(message.roll_deg),
-        )
-    )
+    visit.moves.put(message.to_move())
 
 
 async def _tell_problems(visit: Visit, work: Coroutine[Any, Any, None]) -> None:

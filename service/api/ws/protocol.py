@@ -12,6 +12,7 @@ from uuid import UUID
 from pydantic import ConfigDict, Field
 
 from service.api.shapes import Answer, Request
+from service.api.ws.board_moves import MoveBoard
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
 from service.storage.words import FrameOrigin
@@ -74,9 +75,13 @@ class OpenRun(Request):
 
 
 class Capture(Request):
-    """Take the picture now, whatever the match."""
+    """Take the picture now, by the same checks as by itself: pose, stillness, sharpness, light, target."""
 
     type: Literal["capture"]
+    override: bool = Field(
+        default=False,
+        description="Take it though the checks are not met, recorded with what was not; engineers only.",
+    )
 
 
 class Undo(Request):
@@ -116,24 +121,6 @@ class Ack(Request):
 
     type: Literal["ack"]
     sequence: Sequence
-
-
-class MoveBoard(Request):
-    """Move the virtual board of a station with the source `virtual:mouse`; moves add up until the next frame.
-
-    Directions and angles are those of the raw image, as in `Difference`. What would take the board's centre
-    out of the picture, or its face away from the camera, is not done.
-    """
-
-    type: Literal["move_board"]
-    right_px: float = Field(default=0.0, ge=-10_000, le=10_000, allow_inf_nan=False)
-    down_px: float = Field(default=0.0, ge=-10_000, le=10_000, allow_inf_nan=False)
-    closer_share: float = Field(
-        default=0.0, ge=-0.5, le=1.0, description="Its distance is divided by 1 + this.", allow_inf_nan=False
-    )
-    tilt_deg: float = Field(default=0.0, ge=-90, le=90, allow_inf_nan=False)
-    turn_deg: float = Field(default=0.0, ge=-90, le=90, allow_inf_nan=False)
-    roll_deg: float = Field(default=0.0, ge=-180, le=180, allow_inf_nan=False)
 
 
 ClientMessage = Annotated[
@@ -227,6 +214,7 @@ class Welcome(Told):
     role: Literal["kiosk", "monitor"]
     run_id: UUID | None
     skus: list[str] = Field(description="Codes that a run can be opened for, newest first.")
+    may_override: bool = Field(description="Whether this client's captures may override the checks.")
     moves_board: bool = Field(description="Whether this client moves a virtual board: `move_board`.")
 
 
@@ -372,6 +360,12 @@ class State(Told):
     automatic: bool
     is_capturing: bool = Field(description="A frame was judged fit and is being stored.")
     accuracy: Accuracy | None
+    instead_of: int | None = Field(
+        default=None,
+        description="The pose that was not reached and comes again last; `pose_index` comes first."
+    )
+    tried_s: float = Field(default=0.0, description="How long this pose is tried with a board in the picture.")
+    absent_s: float = Field(default=0.0, description="How long no board has been in the picture; 0 with one.")
     camera: CameraTold | None = Field(default=None, description="Null where the service reads no camera.")
     round_trip_ms: float | None = Field(
         default=None,

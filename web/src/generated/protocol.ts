@@ -48,9 +48,11 @@ export interface CameraTold {
   waited_ms: number;
 }
 
-/** Take the picture now, whatever the match. */
+/** Take the picture now, by the same checks as by itself: pose, stillness, sharpness, light, target. */
 export interface Capture {
   type: "capture";
+  /** Take it though the checks are not met, recorded with what was not; engineers only. */
+  override?: boolean;
 }
 
 /** A capture is stored durably; only now the next pose is asked for. */
@@ -296,6 +298,12 @@ export interface State {
   /** A frame was judged fit and is being stored. */
   is_capturing: boolean;
   accuracy: Accuracy | null;
+  /** The pose that was not reached and comes again last; `pose_index` comes first. */
+  instead_of: number | null;
+  /** How long this pose is tried with a board in the picture. */
+  tried_s: number;
+  /** How long no board has been in the picture; 0 with one. */
+  absent_s: number;
   /** Null where the service reads no camera. */
   camera: CameraTold | null;
   /** Of the newest picture that this client acknowledged, from sending it; null without one. */
@@ -335,6 +343,8 @@ export interface Welcome {
   run_id: string | null;
   /** Codes that a run can be opened for, newest first. */
   skus: string[];
+  /** Whether this client's captures may override the checks. */
+  may_override: boolean;
   /** Whether this client moves a virtual board: `move_board`. */
   moves_board: boolean;
 }
