@@ -362,9 +362,11 @@ class State(Told):
     accuracy: Accuracy | None
     instead_of: int | None = Field(
         default=None,
-        description="The pose that was not reached and comes again last; `pose_index` comes first."
+        description="The pose that was not reached and comes again last; `pose_index` comes first.",
     )
-    tried_s: float = Field(default=0.0, description="How long this pose is tried with a board in the picture.")
+    tried_s: float = Field(
+        default=0.0, description="How long this pose is tried with a board in the picture."
+    )
     absent_s: float = Field(default=0.0, description="How long no board has been in the picture; 0 with one.")
     camera: CameraTold | None = Field(default=None, description="Null where the service reads no camera.")
     round_trip_ms: float | None = Field(

@@ -28,7 +28,7 @@ class CaptureLimits:
     sharp_px: float = 4.5
     darkest: float = 40.0
     brightest: float = 250.0
-    glare_share: float = 0.1
+    glare_share: float = 0.15
 
 
 class Obstacle(StrEnum):

@@ -15,7 +15,7 @@ from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose
 
 # In units of the mean information of a pose; before some captures nothing else makes the covariance finite.
-WEAK_PRIOR: Final = 1e-4
+WEAK_PRIOR: Final = 1e-6
 SETTLING_S: Final = 3.0  # that a pose takes beside the way to it
 
 
