@@ -16,6 +16,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
 from service.api.auth import ROLES_FROM, Guides, SocketRoles, check_role
 from service.api.ws import protocol
+from service.api.ws.board_moves import MoveBoard
 from service.api.ws.desk import Desk, Desks
 from service.api.ws.drivers import (
     Intake,
@@ -218,7 +219,7 @@ async def _obey(visit: Visit, text: str) -> None:
         case protocol.Capture(override=True):
             check_role(visit.link.caller, Role.ENGINEER)
             await visit.desk.ask(lambda session: session.capture(is_forced=True))
-        case protocol.MoveBoard():
+        case MoveBoard():
             _move_board(visit, message)
         case protocol.Hello():
             raise BadRequest("`hello` is said once.")
@@ -226,7 +227,7 @@ async def _obey(visit: Visit, text: str) -> None:
             await visit.desk.ask(QUESTIONS[type(message)](message))
 
 
-def _move_board(visit: Visit, message: protocol.MoveBoard) -> None:
+def _move_board(visit: Visit, message: MoveBoard) -> None:
     if not visit.station.moves_board:
         raise StateForbids(
             "The board of this station is not moved from a screen. Use a station with the source "

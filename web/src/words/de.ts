@@ -208,7 +208,7 @@ export const de: Words = {
   station_source_change: "Ändern",
   station_source_of: (code) => `Quelle von ${code}`,
   station_source_hint:
-    "browser, virtual, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN oder file:NAME. Sie gilt, sobald die Seite des Kiosks neu geladen ist.",
+    "browser, virtual, virtual:mouse, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN oder file:NAME. Sie gilt, sobald die Seite des Kiosks neu geladen ist.",
   station_source_save: "Speichern",
   station_source_cancel: "Verwerfen",
   source_browser: "Kamera des Kiosks",

@@ -206,7 +206,7 @@ export const en = {
   station_source_change: "Change",
   station_source_of: (code: string) => `Source of ${code}`,
   station_source_hint:
-    "browser, virtual, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN or file:NAME. It holds once the kiosk's page is loaded again.",
+    "browser, virtual, virtual:mouse, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN or file:NAME. It holds once the kiosk's page is loaded again.",
   station_source_save: "Save",
   station_source_cancel: "Cancel",
   source_browser: "camera of the kiosk",
