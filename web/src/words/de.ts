@@ -1,10 +1,12 @@
 // Every text of the pages in German.
 import { deKiosk } from "./de_kiosk";
+import { deHelp } from "./de_help";
 import { deReview } from "./de_review";
 import type { Words } from "./en";
 
 export const de: Words = {
   ...deKiosk,
+  ...deHelp,
   ...deReview,
 
   language: "Deutsch",
@@ -207,7 +209,7 @@ export const de: Words = {
   station_source_change: "Ändern",
   station_source_of: (code) => `Quelle von ${code}`,
   station_source_hint:
-    "browser, virtual, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN oder file:NAME. Sie gilt, sobald die Seite des Kiosks neu geladen ist.",
+    "browser, virtual, virtual:mouse, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN oder file:NAME. Sie gilt, sobald die Seite des Kiosks neu geladen ist.",
   station_source_save: "Speichern",
   station_source_cancel: "Verwerfen",
   source_browser: "Kamera des Kiosks",

@@ -1,9 +1,11 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
 import { enKiosk } from "./en_kiosk";
+import { enHelp } from "./en_help";
 import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
+  ...enHelp,
   ...enReview,
 
   language: "English",
@@ -205,7 +207,7 @@ export const en = {
   station_source_change: "Change",
   station_source_of: (code: string) => `Source of ${code}`,
   station_source_hint:
-    "browser, virtual, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN or file:NAME. It holds once the kiosk's page is loaded again.",
+    "browser, virtual, virtual:mouse, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN or file:NAME. It holds once the kiosk's page is loaded again.",
   station_source_save: "Save",
   station_source_cancel: "Cancel",
   source_browser: "camera of the kiosk",
