@@ -1,10 +1,12 @@
 // Every text of the pages in German.
 import { deKiosk } from "./de_kiosk";
+import { dePractice } from "./de_practice";
 import { deReview } from "./de_review";
 import type { Words } from "./en";
 
 export const de: Words = {
   ...deKiosk,
+  ...dePractice,
   ...deReview,
 
   language: "Deutsch",

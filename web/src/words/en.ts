@@ -1,9 +1,11 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
 import { enKiosk } from "./en_kiosk";
+import { enPractice } from "./en_practice";
 import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
+  ...enPractice,
   ...enReview,
 
   language: "English",
