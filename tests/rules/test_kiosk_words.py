@@ -30,6 +30,7 @@ ELSEWHERE = {
     "pose-index-unknown",
     "pose-set-infeasible",
     "pose-set-invalid",
+    "pose-set-mismatch",
     "pose-space-empty",
     "pose-undetermined",
     "scene-invalid",

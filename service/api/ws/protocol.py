@@ -14,7 +14,7 @@ from pydantic import ConfigDict, Field
 from service.api.shapes import Answer, Request
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
-from service.storage.words import FrameOrigin
+from service.storage.words import FrameOrigin, Language
 from service.usecases.text import Code
 
 PROTOCOL = 1
@@ -206,6 +206,7 @@ class Welcome(Told):
     station: str
     name: str
     source: FrameOrigin
+    language: Language | None = Field(description="That the kiosk starts in; null: its browser's.")
     role: Literal["kiosk", "monitor"]
     run_id: UUID | None
     skus: list[str] = Field(description="Codes that a run can be opened for, newest first.")

@@ -155,6 +155,9 @@ export interface HintSaid {
   amount: number;
 }
 
+/** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
+export type Language = "en" | "de" | "zh";
+
 /** Leave the run that has ended; the station is free for the next serial. */
 export interface NextVehicle {
   type: "next_vehicle";
@@ -314,6 +317,8 @@ export interface Welcome {
   station: string;
   name: string;
   source: FrameOrigin;
+  /** That the kiosk starts in; null: its browser's. */
+  language: Language | null;
   role: "kiosk" | "monitor";
   run_id: string | null;
   /** Codes that a run can be opened for, newest first. */

@@ -7,6 +7,8 @@ import "../look/kiosk_figures.css";
 import "../look/kiosk_guide.css";
 import "../look/kiosk_pictograms.css";
 import "../look/kiosk_verdict.css";
+import "../look/kiosk_idle.css";
+import "../look/kiosk_practice.css";
 import "../look/kiosk_large.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
