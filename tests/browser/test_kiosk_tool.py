@@ -232,6 +232,10 @@ def test_nobody_there_rests_the_screen_and_a_scan_wakes_it_without_losing_a_lett
 def test_the_dashboards_pages_can_be_used_by_everybody(page: Page, stations: Serving, access: Access) -> None:
     page.goto(f"{stations.url}/#key={stations.key}")
     run = stored_run(stations, "VIN-TOOL-1")
+    page.goto(f"{stations.url}/#/skus/tiny")
+    page.get_by_role("link", name="Review this set").click()
+    expect(page.get_by_text("At a glance")).to_be_visible()
+    access.look(page, "pose set")
     for address, ready in (
         ("runs", "VIN-TOOL-1"),
         (f"runs/{run['id']}", "Intrinsics"),

@@ -10,6 +10,9 @@ import type { Kiosk } from "./kiosk";
 import { scoreOf, type Practice, type Score } from "./practice";
 import { bestName, isBetter, storeBest, storedBest, type Best } from "./practice_best";
 
+/** A foot that still stands on the switch must not begin the next one. */
+const READ_MS = 1500;
+
 interface Props {
   kiosk: Kiosk;
   practice: Practice;
@@ -21,7 +24,10 @@ export function PracticeResult({ kiosk, practice, verdict }: Props): JSX.Element
   const score = scoreOf(practice);
   const [standing] = useState(() => compared(kiosk, score, verdict.verdict !== "FAIL"));
   const again = useRef<HTMLButtonElement>(null);
-  useEffect(() => again.current?.focus(), []);
+  useEffect(() => {
+    const timer = window.setTimeout(() => again.current?.focus(), READ_MS);
+    return () => window.clearTimeout(timer);
+  }, []);
   const word = { PASS: say.verdict_PASS, MARGINAL: say.verdict_MARGINAL, FAIL: say.verdict_FAIL }[
     verdict.verdict
   ];
