@@ -234,7 +234,7 @@ def test_the_dashboards_pages_can_be_used_by_everybody(page: Page, stations: Ser
     run = stored_run(stations, "VIN-TOOL-1")
     page.goto(f"{stations.url}/#/skus/tiny")
     page.get_by_role("link", name="Review this set").click()
-    expect(page.get_by_text("At a glance")).to_be_visible()
+    expect(page.get_by_role("heading", name="Coverage")).to_be_visible()
     access.look(page, "pose set")
     for address, ready in (
         ("runs", "VIN-TOOL-1"),
