@@ -157,7 +157,7 @@ def test_a_station_speaks_its_language_until_somebody_switches(
 ) -> None:
     page.goto(f"{stations.url}/#key={stations.key}")
     page.goto(f"{stations.url}/#/stations")
-    choice = page.get_by_label("Language of the kiosk of own")
+    choice = page.get_by_label("Kiosk of own speaks")
     choice.select_option(label="中文")
     expect(choice).to_be_enabled()
     expect(choice).to_have_value("zh")

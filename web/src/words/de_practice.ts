@@ -41,7 +41,7 @@ export const dePractice: typeof enPractice = {
   act_speech: "Stimme",
   act_full_screen: "Vollbild",
 
-  station_language: "Sprache des Kiosks",
-  station_language_of: (code) => `Sprache des Kiosks von ${code}`,
-  station_language_none: "die des Browsers",
+  station_language: "Kiosk spricht",
+  station_language_of: (code) => `Kiosk von ${code} spricht`,
+  station_language_none: "wie der Browser",
 };

@@ -39,7 +39,7 @@ export const enPractice = {
   act_speech: "Voice",
   act_full_screen: "Full screen",
 
-  station_language: "Language of the kiosk",
-  station_language_of: (code: string) => `Language of the kiosk of ${code}`,
-  station_language_none: "the browser’s",
+  station_language: "Kiosk speaks",
+  station_language_of: (code: string) => `Kiosk of ${code} speaks`,
+  station_language_none: "as the browser",
 };
