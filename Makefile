@@ -39,8 +39,9 @@ format: $(VENV)/.dev web/node_modules/.installed ## Format both languages and me
 	$(BIN)/ruff format .
 	cd web && npm run --silent format
 
-bench: $(VENV)/.dev ## Measure: make bench NAME=planning (QUICK=1, JSON=file)
-	@$(BIN)/python -m bench $(NAME) $(if $(QUICK),--quick) $(if $(JSON),--json $(JSON))
+bench: $(VENV)/.dev ## Measure: make bench NAME=planning (QUICK=1, JSON=file, PLOT=file, REUSE=file)
+	@$(BIN)/python -m bench $(NAME) $(if $(QUICK),--quick) $(if $(JSON),--json $(JSON)) $(if $(PLOT),--plot $(PLOT)) \
+	  $(if $(REUSE),--reuse $(REUSE))
 
 schemas: $(VENV)/.dev ## Write docs/openapi.json and the web's types again
 	$(BIN)/dmscal schemas

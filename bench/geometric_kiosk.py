@@ -10,11 +10,11 @@ import numpy as np
 
 from service.core.errors import PoseUndetermined
 from service.core.guidance.actions import CaptureAccepted, CaptureFrame, Frame
-from service.core.guidance.hints import Hint, ShownHint
+from service.core.guidance.hints import DIRECTIONS, Hint, ShownHint
 from service.core.guidance.observation import Observation
 from service.core.guidance.session import GuidanceSettings, SessionState, start_session, step
 from service.core.guidance.session_view import view
-from service.core.vision.camera import project
+from service.core.vision.camera import Intrinsics, project
 from service.core.vision.pose import estimate_pose
 from service.core.vision.transforms import Array, Pose
 from service.simulator.operator import Hand
@@ -25,16 +25,44 @@ SHARP_PX = 1.5
 SEEN_FROM_THE_FRONT = 0.2  # cosine of the flattest view in which corners are found
 
 Display = Callable[[Hint], Hint]
+OPPOSITE = {a: b for pair in DIRECTIONS for a, b in (pair, pair[::-1])}
 
 
 @dataclass(frozen=True)
 class GuidedRun:
-    """How a run went: when each capture was made, s, the poses captured, and whether every pose was."""
+    """How a run went: when each capture was made, s, the poses captured, and whether every pose was.
+
+    told: the hints that were shown. turnarounds: per pose that was begun, how often the first hint asked for
+    the opposite of what it had last asked for on its axis.
+    """
 
     captured_at_s: tuple[float, ...]
     captures: tuple[Pose, ...]
     complete: bool
-    told: frozenset[Hint] = field(default_factory=frozenset)
+    told: frozenset[Hint]
+    turnarounds: tuple[int, ...]
+
+
+@dataclass
+class _Watch:
+    """What is seen of the screen while a hand is guided."""
+
+    told: set[Hint] = field(default_factory=set)
+    turnarounds: list[int] = field(default_factory=lambda: [0])
+    latest: set[Hint] = field(default_factory=set)
+
+    def see(self, hints: tuple[ShownHint, ...]) -> None:
+        """Take note of the hints of one frame."""
+        self.told |= {hint.code for hint in hints}
+        first = hints[0].code if hints else None
+        if first in OPPOSITE:
+            self.turnarounds[-1] += OPPOSITE[first] in self.latest
+            self.latest = self.latest - {OPPOSITE[first]} | {first}
+
+    def begin_pose(self) -> None:
+        """Count anew."""
+        self.turnarounds.append(0)
+        self.latest = set()
 
 
 def as_told(hint: Hint) -> Hint:
@@ -51,32 +79,44 @@ def guide_hand(
     longest_s: float,
     frames_per_s: float = 20.0,
     display: Display = as_told,
+    camera: Intrinsics | None = None,
 ) -> GuidedRun:
-    """Return what a hand reaches of the expected poses within a time, seeing hints through a display."""
+    """Return what a hand reaches of the expected poses within a time, seeing hints through a display.
+
+    camera: the true one, where it is not the nominal one that guidance goes by.
+    """
     state = start_session(expected)
     captures: list[Pose] = []
     times: list[float] = []
-    told: set[Hint] = set()
+    watch = _Watch()
     seen: tuple[ShownHint, ...] = ()
     for sequence in range(1, int(longest_s * frames_per_s) + 1):
         pose, now_s = hand.step(seen, 1.0 / frames_per_s, rng), sequence / frames_per_s
-        frame = observe(pose, now_s, sequence, settings, rng)
+        frame = observe(pose, now_s, sequence, settings, rng, true_camera=camera)
         state, captured = _take(state, frame, settings)
         seen = tuple(ShownHint(display(hint.code), hint.amount) for hint in view(state, settings).hints)
-        told |= {hint.code for hint in seen}
+        watch.see(seen)
         if captured:
+            watch.begin_pose()
             captures.append(pose)
             times.append(now_s)
         if state.current is None:
             break
-    return GuidedRun(tuple(times), tuple(captures), state.current is None, frozenset(told))
+    turnarounds = tuple(watch.turnarounds[: len(expected)])
+    return GuidedRun(tuple(times), tuple(captures), state.current is None, frozenset(watch.told), turnarounds)
 
 
 def observe(
-    pose: Pose, at_s: float, sequence: int, settings: GuidanceSettings, rng: np.random.Generator
+    pose: Pose,
+    at_s: float,
+    sequence: int,
+    settings: GuidanceSettings,
+    rng: np.random.Generator,
+    *,
+    true_camera: Intrinsics | None = None,
 ) -> Observation:
-    """Return what a camera would see of a board at a pose: corners with noise and the pose they give."""
-    target, camera = settings.target, settings.intrinsics
+    """Return what a camera sees of a board at a pose: corners with noise and the pose the nominal gives."""
+    target, camera = settings.target, true_camera or settings.intrinsics
     centre = pose.rotation @ target.centre + pose.tvec
     facing = pose.rotation[:, 2] @ centre / np.linalg.norm(centre) > SEEN_FROM_THE_FRONT
     corners = project(camera, pose.rotation, pose.tvec, target.object_points)
@@ -87,7 +127,7 @@ def observe(
         return Observation(at_s, "partial", int(inside.sum()), sequence=sequence)
     points = corners + rng.normal(0.0, NOISE_PX, corners.shape)
     try:
-        seen = estimate_pose(camera, target.object_points, points).pose
+        seen = estimate_pose(settings.intrinsics, target.object_points, points).pose
     except PoseUndetermined:
         return Observation(at_s, "partial", len(points), sequence=sequence)
     return Observation(at_s, "present", len(points), seen, points, SHARP_PX, 180.0, sequence)

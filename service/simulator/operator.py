@@ -30,7 +30,10 @@ MIRROR: Final = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
 
 @dataclass(frozen=True)
 class Habits:
-    """How a hand moves.
+    """How a hand moves: no quicker than people do.
+
+    A hint's amount sets the pace, so that hand and hints are a loop of speed_m_s / FAR_M = 1.3 rad/s. People
+    who keep one thing in place on a screen reach about 3 (McRuer and Jex 1967, the crossover model).
 
     speed_m_s, turn_rad_s: at full pace. reaction_s: from a hint on the screen to the hand. inertia_s: how
     long a change of pace takes. tremor_*: standard deviations and memory. lapses_per_s: how often the board
@@ -97,7 +100,7 @@ class Hand:
         while self._read and self._read[0][0] <= self._now_s:
             arrived = self._read.popleft()[1]
             if _shows(arrived, Hint.SHOW_WHOLE_BOARD) and not _shows(self._obeyed, Hint.SHOW_WHOLE_BOARD):
-                self._steering.startle(self._obeyed)
+                self._steering.startle()
             self._obeyed = arrived
 
     def _decide(self, dt_s: float, rng: np.random.Generator) -> Array:

@@ -8,11 +8,11 @@ from uuid import UUID
 import numpy as np
 from sqlalchemy.orm import Session
 
-from service.core.errors import NotFound, PoseSetInfeasible
+from service.core.errors import NotFound
 from service.core.planning.bootstrap import compare_plans
 from service.core.planning.criterion import Objective, Weights
 from service.core.planning.curve import smallest_count
-from service.core.planning.document import pose_from_dict, pose_set_to_dict
+from service.core.planning.document import pose_from_dict, pose_set_to_dict, pose_to_dict
 from service.core.planning.noise import FITTED_NOISE
 from service.core.planning.optimiser import Progress
 from service.core.planning.paper import plan_as_the_paper
@@ -20,8 +20,7 @@ from service.core.planning.plan import PoseSet, describe_set, plan_pose_set
 from service.core.planning.pose_space import Poses
 from service.core.planning.prediction import zone_within
 from service.core.planning.robustness import DRAWS, Robustness
-from service.core.vision.camera import project
-from service.core.vision.transforms import Array, Pose, stack_poses
+from service.core.vision.transforms import Pose, stack_poses
 from service.ports import JobCompletion, JobHandler, JobRun
 from service.storage.database import Database
 from service.storage.models import PoseSetRow, SkuRevisionRow
@@ -37,8 +36,8 @@ class PlanRequest:
     """How to plan: the same values give the same poses.
 
     planner: ours, or the paper's procedure as the baseline to compare with. weights: instead of an objective.
-    draws: cameras and hands that a set is judged by. follows: the set, of another revision, that this one
-    continues after a better estimate of the camera.
+    draws: cameras and hands that a set is judged by. sets: random ones that the paper's procedure tries.
+    follows: the set, of another revision, that this one continues after a better estimate of the camera.
     """
 
     seed: int = 0
@@ -47,6 +46,7 @@ class PlanRequest:
     weights: Weights | None = None
     draws: int = DRAWS
     planner: Planner = "exchange"
+    sets: int = 1000
     follows: str | None = None
 
     def to_json(self) -> JsonObject:
@@ -77,6 +77,7 @@ def plan_for(
             wanted,
             plan.seed,
             candidates=plan.candidates,
+            sets=plan.sets,
             sigma_px=revision.corner_noise_px,
             progress=progress,
             zone=revision.working_zone,
@@ -139,12 +140,9 @@ def plan_pose_set_job(database: Database) -> JobHandler:
 def describe_import(revision: Revision, poses: Sequence[Pose]) -> JsonObject:
     """Return the stored form of given poses with what they promise.
 
-    Raises PoseSetInfeasible naming the poses at which the board is not wholly in the image, or when the set
-    does not determine the camera.
+    Raises PoseSetInfeasible when the set does not determine the camera.
     """
     rotations, translations = stack_poses(list(poses))
-    pixels = project(revision.intrinsics, rotations, translations, revision.target.object_points)
-    _check_visible(pixels, revision.intrinsics.image_size)
     described = describe_set(
         revision.intrinsics,
         revision.target,
@@ -157,23 +155,12 @@ def describe_import(revision: Revision, poses: Sequence[Pose]) -> JsonObject:
     )
     document = planned_document(revision, described)
     provenance = {name: document["provenance"][name] for name in ("sigma_px", "noise_source")}
-    return {**document, "provenance": {"planner": "imported", **provenance}}
-
-
-def _check_visible(pixels: Array, image_size: tuple[int, int]) -> None:
-    """Refuse poses whose corners (m, n, 2) px are not all in the image.
-
-    Written so that NaN (behind it) is refused.
-    """
-    inside = (pixels >= 0) & (pixels <= np.array(image_size) - 1.0)
-    hidden = [int(i) for i in np.flatnonzero(~np.all(inside, axis=(1, 2)))]
-    if hidden:
-        raise PoseSetInfeasible(
-            f"The board is not wholly in the image at pose {', '.join(map(str, hidden))} (from 0). Poses "
-            "are T_cam_board: "
-            "rotation vector in rad and translation of the board's first corner in m.",
-            poses=hidden,
-        )
+    return {
+        **document,
+        # As they were given: a way through rotation matrices would change the last digit.
+        "poses": [pose_to_dict(pose) for pose in poses],
+        "provenance": {"planner": "imported", **provenance},
+    }
 
 
 def _load(session: Session, pose_set_id: UUID) -> tuple[Revision, PlanRequest]:

@@ -21,7 +21,7 @@ from service.ports import JobQueue
 from service.storage.models import JobRow, PoseSetRow, SkuRevisionRow, SkuRow
 from service.storage.words import Publication
 from service.usecases.audit import record
-from service.usecases.observation import number_or_null, outer_corners
+from service.usecases.observation import outer_corners
 from service.usecases.paging import PageRequest, Part, page_of
 from service.usecases.planning import PLAN_POSE_SET, PlanRequest, describe_import
 from service.usecases.pose_set_document import (
@@ -124,9 +124,6 @@ def import_pose_set(
     check_in_image(camera, given)
     document = describe_import(camera, given)
     document["provenance"] |= claim.origin
-    # Where the lens does not reach all of the zone nothing finite is promised, and JSON knows no infinity.
-    mapping = document["prediction"]["mapping"]
-    document["prediction"]["mapping"] = {name: number_or_null(value) for name, value in mapping.items()}
     row = PoseSetRow(sku_revision_id=revision.id, created_at=now, **document)
     session.add(row)
     session.flush()

@@ -68,7 +68,10 @@ def test_runs_refine_a_camera_known_by_its_data_sheet_until_its_plan_is_settled(
     settled = []
     for number in (2, 3):
         made = station.expect(
-            202, station.post("/skus/rough/refine", {"run_id": guide(station, f"VIN-{number}")})
+            202,
+            station.post(
+                "/skus/rough/refine", {"run_id": guide(station, f"VIN-{number}"), "candidates": 400}
+            ),
         )
         assert made["revision"] == number
         planned = publish(station, number, made["pose_set"], made["job"])

@@ -34,6 +34,44 @@ def test_an_unknown_name_lists_the_benches_and_exits_with_2(capsys: pytest.Captu
     complaint = capsys.readouterr().err
     assert "no-such-bench" in complaint
     assert "planning" in complaint
+    assert "paper table1" in complaint
+
+
+@pytest.mark.parametrize("name", ["paper", "paper table9", "table1", "paper table1 more"])
+def test_half_a_name_or_one_word_too_many_is_no_bench(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert command.main(name.split()) == 2
+    assert f"'{name}'" in capsys.readouterr().err
+
+
+def test_the_papers_experiments_have_names_of_two_words() -> None:
+    assert {"paper table1", "paper table2", "paper figure4", "guided"} <= set(command.find_benches())
+
+
+def test_a_name_of_two_words_runs_its_bench(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    inner = Counting()
+    monkeypatch.setattr(command, "find_benches", lambda: {"outer inner": inner})
+    assert command.main(["outer", "inner", "--quick"]) == 0
+    assert inner.runs == [True]
+    assert capsys.readouterr().out == "ratio 2.0\n"
+
+
+@pytest.mark.parametrize("option", ["--plot", "--reuse"])
+def test_what_a_bench_cannot_do_is_refused_before_it_runs(
+    counting: Counting, option: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert command.main(["counting", option, str(tmp_path / "file")]) == 2
+    assert option in capsys.readouterr().err
+    assert counting.runs == []
+
+
+def test_a_file_that_holds_no_trials_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    for content in ("{}", "not JSON"):
+        (tmp_path / "other.json").write_text(content)
+        assert command.main(["paper", "figure4", "--reuse", str(tmp_path / "other.json")]) == 2
+        assert "cannot use" in capsys.readouterr().err
+    assert command.main(["paper", "figure4", "--reuse", str(tmp_path / "none.json")]) == 2
 
 
 def test_the_table_is_printed_and_nothing_is_written_without_being_asked(

@@ -8,8 +8,8 @@ import functools
 import numpy as np
 import pytest
 
-from bench.geometric_kiosk import Display, GuidedRun, as_told, guide_hand
-from bench.guidance_hand import OPPOSITE, Station, plan_station, random_starts, reach, upside_down
+from bench.geometric_kiosk import OPPOSITE, Display, GuidedRun, as_told, guide_hand
+from bench.guided_trials import Station, attempt, plan_station, random_starts, reaching, upside_down
 from service.core.guidance.hints import Hint, ShownHint, mirror_hint
 from service.core.vision.transforms import Pose, rotation_matrix, rotation_vector
 from service.demo.skus import PAPER_SKUS
@@ -22,14 +22,14 @@ SHORTLY_S = 7.0
 
 @functools.cache
 def station(index: int) -> Station:
-    return plan_station(PAPER_SKUS[index], 300)
+    return plan_station(PAPER_SKUS[index], 300, 12)
 
 
 @functools.cache
 def fisheye_station() -> Station:
     """Return a station whose camera sees 200 degrees from corner to corner, with its poses."""
     nominal = {"fx": 431.0, "fy": 431.0, "cx": 639.5, "cy": 399.5, "k1": 0.01}
-    return plan_station({**PAPER_SKUS[0], "lens": "kannala_brandt4", "nominal": nominal}, 300)
+    return plan_station({**PAPER_SKUS[0], "lens": "kannala_brandt4", "nominal": nominal}, 300, 12)
 
 
 def board_at(centre: tuple[float, float, float], degrees: tuple[float, float, float] = (0, 0, 0)) -> Pose:
@@ -71,14 +71,14 @@ def guide(
 @pytest.mark.parametrize("pose", [0, 11])
 def test_the_hand_reaches_planned_poses_from_random_starts(index: int, pose: int) -> None:
     start = random_starts(station(index), 12, seed=5)[pose]
-    assert reach(station(index), station(index).poses[pose], start, seed=pose).complete
+    assert attempt(reaching(station(index), station(index).poses[pose], start, seed=pose)).complete
 
 
 @pytest.mark.parametrize("pose", [0, 5, 11])
 def test_the_hand_reaches_what_is_planned_for_an_all_round_fisheye(pose: int) -> None:
     fisheye = fisheye_station()
     start = random_starts(station(1), 12, seed=6)[pose]
-    assert reach(fisheye, fisheye.poses[pose], start, seed=pose).complete
+    assert attempt(reaching(fisheye, fisheye.poses[pose], start, seed=pose)).complete
 
 
 @pytest.mark.parametrize("hint", WAYS)

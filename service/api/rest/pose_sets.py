@@ -27,7 +27,7 @@ router = APIRouter(tags=["Pose sets"])
 
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
 Size = Annotated[tuple[Pixels, Pixels], Field(strict=False)]
-OF_A_PLAN = {"seed", "candidates", "objective", "weights", "draws", "planner"}
+OF_A_PLAN = {"seed", "candidates", "objective", "weights", "draws", "planner", "sets"}
 OF_AN_IMPORT = {"sku", "revision", "image_size", "target", "prediction", "provenance"}
 Vector3 = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
 
@@ -89,6 +89,9 @@ class NewPoseSet(Request):
     )
     planner: Planner = Field(
         default="exchange", description="`paper`: the paper's own procedure, as a baseline to compare with."
+    )
+    sets: int = Field(
+        default=1000, ge=10, le=10000, description="Random sets that the paper's procedure scores."
     )
     poses: list[PoseShape] | None = Field(
         default=None, min_length=3, max_length=100, description="Import these poses instead of planning."
@@ -275,6 +278,7 @@ def create_pose_set(
             weights=weights,
             draws=body.draws,
             planner=body.planner,
+            sets=body.sets,
         )
         made = pose_sets.request_pose_set(db, of.jobs, code, number, plan, who=who, now=now)
     return PoseSetRequested.model_validate(made)
@@ -303,6 +307,7 @@ class Refinement(Request):
 
     run_id: UUID = Field(strict=False)
     seed: int = Field(default=0, ge=0, le=2**31 - 1, description="Of the plan: same seed, same poses.")
+    candidates: int = Field(default=3000, ge=100, le=20000, description="Poses to choose from.")
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"run_id": "019b0000-0000-7000-8000-000000000000"}]}
@@ -323,7 +328,7 @@ class Refined(Answer):
 @router.post("/skus/{code}/refine", status_code=202, summary="Refine a SKU by a run")
 def refine_sku(code: SkuCode, body: Refinement, *, caller: Engineer, db: Db, of: Of, now: Now) -> Refined:
     """Make a revision whose nominal is what a run has found, and plan for it: again until it is settled."""
-    plan = PlanRequest(seed=body.seed)
+    plan = PlanRequest(body.seed, body.candidates)
     made = refinement.refine_sku(db, of.jobs, code, body.run_id, plan, who=caller.name, now=now)
     requested = made.requested
     return Refined.model_validate(

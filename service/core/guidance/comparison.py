@@ -7,6 +7,7 @@ changes another one. Not here: words for them (`hints`) and when to capture (`au
 """
 
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Final
 
 import numpy as np
@@ -22,6 +23,14 @@ WIDTH_OF_TOLERANCES: Final = 1280
 BAR_REACH: Final = 4.0  # an error of so many tolerances beyond the first halves the match bar
 BORDER_PX: Final = 4.0  # corners nearer to the border cannot be found
 UNSEEN_PX: Final = 1e4
+PAIRS: Final = tuple(combinations(range(6), 2))
+# Which of the six errors are mended, and by how much of each: alone, half alone, in pairs.
+MENDINGS: Final = np.concatenate(
+    [np.eye(6), 0.5 * np.eye(6), [np.eye(6)[i] + np.eye(6)[j] for i, j in PAIRS]]
+)
+
+Six = tuple[bool, bool, bool, bool, bool, bool]
+NONE: Final[Six] = (False, False, False, False, False, False)
 
 
 @dataclass(frozen=True)
@@ -60,8 +69,10 @@ class PoseDifference:
                      / bottom                             (o)
 
     corner_px: mean distance of the four outer corners, the paper's rule. effects_px: by how much each of the
-    six errors alone moves those corners, in the order of the fields. leads_out: whether to mend that error
-    alone would take a corner of the seen board out of the picture. is_upside_down: turned by about 180°.
+    six errors alone moves those corners, in the order of the fields. ways: how far a hand must move the board
+    for each, m and rad. leads_out, half_leads_out: whether to mend that error alone, or half of it, would
+    take a corner of the seen board out of the picture; pairs_lead_out: the pairs of fields (i, j), i < j,
+    that would do so when both are mended. is_upside_down: turned by about 180°.
     """
 
     right_px: float
@@ -73,7 +84,10 @@ class PoseDifference:
     corner_px: float
     is_upside_down: bool
     effects_px: tuple[float, float, float, float, float, float]
-    leads_out: tuple[bool, bool, bool, bool, bool, bool] = (False, False, False, False, False, False)
+    ways: tuple[float, float, float, float, float, float]
+    leads_out: Six = NONE
+    half_leads_out: Six = NONE
+    pairs_lead_out: frozenset[tuple[int, int]] = frozenset()
 
 
 def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
@@ -96,8 +110,10 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Che
     outer = target.object_points[list(target.outer_corners)] - target.centre
     corners = project(intrinsics, rotations, centres, outer)
     distances = np.nan_to_num(np.linalg.norm(corners[1:6] - corners[0], axis=-1), nan=UNSEEN_PX).mean(axis=-1)
+    across, down_m, along = abs(shift[0]), abs(shift[1]), np.linalg.norm(found) * abs(closer) / (1.0 + closer)
     corner_px, closer_px, tilt_px, turn_px, roll_px = (float(distance) for distance in distances)
     out = [bool(leads) for leads in ~_are_inside(corners[6:], intrinsics.image_size)]
+    alone, half, together = out[:6], out[6:12], out[12:]
     return PoseDifference(
         right_px=right,
         down_px=down,
@@ -108,7 +124,10 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Che
         corner_px=corner_px,
         is_upside_down=_axis_angle(R, R_seen) > UPSIDE_DOWN_RAD,
         effects_px=(abs(right), abs(down), closer_px, tilt_px, turn_px, roll_px),
-        leads_out=(out[0], out[1], out[2], out[3], out[4], out[5]),
+        ways=(float(across), float(down_m), float(along), abs(tilt), abs(turn), abs(roll)),
+        leads_out=_six(alone),
+        half_leads_out=_six(half),
+        pairs_lead_out=frozenset(pair for pair, leads in zip(PAIRS, together, strict=True) if leads),
     )
 
 
@@ -141,20 +160,25 @@ def _match_errors(difference: PoseDifference, tolerances: Tolerances) -> tuple[f
 def _variants(
     wanted: tuple[Array, Array], found: tuple[Array, Array], turns: Array, closer: float, shift: Array
 ) -> tuple[Array, Array]:
-    """Return rotations (12, 3, 3) and centres (12, 3) m of the boards whose corners tell something.
+    """Return rotations (6 + k, 3, 3) and centres (6 + k, 3) m of the boards whose corners tell something.
 
     The expected board and the seen one; the expected one spoilt by one error each: closer, tilt, turn, roll;
-    the seen one with one error less each, in the order of PoseDifference. shift: (2,) m, nearly.
+    the seen one mended by each of MENDINGS (k). shift: (2,) m, nearly.
     """
     (R, centre), (R_seen, centre_seen) = wanted, found
-    singles = rotation_matrix(np.diag(turns))
-    spoilt, mended = np.swapaxes(singles, -1, -2) @ R, singles @ R_seen
-    rotations = np.concatenate([[R, R_seen, R], spoilt, [R_seen] * 3, mended])
-    there, here = np.tile(centre, (3, 1)), np.tile(centre_seen, (3, 1))
-    shifted = centre_seen + np.array([[shift[0], 0.0, 0.0], [0.0, shift[1], 0.0]])
-    nearer = [centre_seen / (1.0 + closer)]
-    centres = np.concatenate([[centre, centre_seen, centre * (1.0 + closer)], there, shifted, nearer, here])
+    spoilt = np.swapaxes(rotation_matrix(np.diag(turns)), -1, -2) @ R
+    mended = rotation_matrix(MENDINGS[:, 3:] * turns) @ R_seen
+    rotations = np.concatenate([[R, R_seen, R], spoilt, mended])
+    shifted = centre_seen + np.pad(MENDINGS[:, :2] * shift, ((0, 0), (0, 1)))
+    nearer = shifted / (1.0 + MENDINGS[:, 2:3] * closer)
+    centres = np.concatenate(
+        [[centre, centre_seen, centre * (1.0 + closer)], np.tile(centre, (3, 1)), nearer]
+    )
     return rotations, centres
+
+
+def _six(flags: list[bool]) -> Six:
+    return flags[0], flags[1], flags[2], flags[3], flags[4], flags[5]
 
 
 def _are_inside(corners: Array, image_size: tuple[int, int]) -> NDArray[np.bool_]:

@@ -8,8 +8,11 @@ the user interface; when to capture lives in `auto_capture`.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import combinations
 from types import MappingProxyType
 from typing import Final
+
+import numpy as np
 
 from service.core.guidance.comparison import PoseDifference, Tolerances, is_match
 
@@ -56,15 +59,17 @@ DIRECTIONS: Final = (
     (Hint.TURN_LEFT_BACK, Hint.TURN_RIGHT_BACK),
     (Hint.ROTATE_CLOCKWISE, Hint.ROTATE_COUNTERCLOCKWISE),
 )
+SHIFTS: Final = (0, 1, 2)  # of DIRECTIONS
 MOST_HINTS: Final = 2
 # Each error alone may move the outer corners by this share of their tolerance.
 EFFECT_SHARE: Final = 0.6
 # A hint that is being followed is kept until its error is within this share of its tolerance.
 KEPT_UNTIL: Final = 0.7
-# Less than this share of a tolerance is never worth a hint.
-WORTH_MENDING: Final = 0.3
-# Up to so many tolerances, so much is left to go.
-AMOUNTS: Final = ((2.0, 0.05), (4.0, 0.1), (8.0, 0.2), (16.0, 0.4), (float("inf"), 1.0))
+# What is far for a hand, and how much of that may be left: each step is about 1.6 times the one before.
+# Not in tolerances: they say how exactly a board must be held, and not how long it takes to get there.
+FAR_M: Final = 0.25
+FAR_RAD: Final = float(np.deg2rad(95.0))
+AMOUNTS: Final = (0.02, 0.04, 0.06, 0.1, 0.15, 0.25, 0.4, 0.6, 1.0)
 
 _MIRRORED_PAIRS: Final = (
     (Hint.MOVE_LEFT, Hint.MOVE_RIGHT),
@@ -82,25 +87,41 @@ def choose_hints(
     """Return at most two movements: those of the previous that are not done yet, then the largest errors.
 
     Errors are measured in units of their tolerances. What would take the board out of the picture as it is
-    held now waits until the other errors are mended: a board for the picture's corner is turned first. None
-    where the pose matches; only TURN_UPSIDE_DOWN where the board is. Where no error alone exceeds its
-    tolerance and the corners do, the largest error is named.
+    held now waits until the other errors are mended, and two movements are only named together if the board
+    stays in the picture when both are made. None where the pose matches; only TURN_UPSIDE_DOWN where the
+    board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
     """
     if difference.is_upside_down:
         return (Hint.TURN_UPSIDE_DOWN,)
     if is_match(difference, tolerances):
         return ()
     errors = errors_in_tolerances(difference, tolerances)
-    limits = {hint: KEPT_UNTIL if hint in previous else 1.0 for hint in errors}
-    wanted = [hint for hint in errors if errors[hint] > limits[hint]] or [
-        max(errors, key=lambda h: errors[h])
-    ]
-    wary = dict(zip(errors, difference.leads_out, strict=True))
-    safe = [hint for hint in wanted if not wary[hint]]
-    # Small errors that are safe to mend make room for large ones that are not.
-    room = [hint for hint in errors if not wary[hint] and errors[hint] > WORTH_MENDING]
-    ordered = sorted(safe or room or wanted, key=lambda hint: (_place(hint, previous), -errors[hint]))
-    return tuple(ordered[:MOST_HINTS])
+    hints = list(errors)
+    limits = [KEPT_UNTIL if hint in previous else 1.0 for hint in hints]
+    sizes = list(errors.values())
+    wanted = [i for i in range(len(hints)) if sizes[i] > limits[i]] or [max(range(6), key=sizes.__getitem__)]
+    ordered = sorted(wanted, key=lambda i: (_place(hints[i], previous), -sizes[i]))
+    return tuple(hints[i] for i in _choose_safe(ordered, difference))
+
+
+def _choose_safe(ordered: list[int], difference: PoseDifference) -> list[int]:
+    """Return which one or two of the wanted movements, by their axes, keep the board in the picture.
+
+    First what is safe alone, with another that is safe beside it. Else two that are only safe together: one
+    makes room for the other. Else what is safe for half of its way, and at last whatever is wanted.
+    """
+    for first in (i for i in ordered if not difference.leads_out[i]):
+        beside = [i for i in ordered if i != first and not _lead_out(first, i, difference)]
+        return [first, *beside[: MOST_HINTS - 1]]
+    for first, second in combinations(ordered, 2):
+        if not _lead_out(first, second, difference):
+            return [first, second]
+    half = [i for i in ordered if not difference.half_leads_out[i]]
+    return (half or ordered)[:1]
+
+
+def _lead_out(i: int, j: int, difference: PoseDifference) -> bool:
+    return (min(i, j), max(i, j)) in difference.pairs_lead_out
 
 
 def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> dict[Hint, float]:
@@ -125,10 +146,23 @@ def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> 
     }
 
 
-def coarse_amount(hint: Hint, difference: PoseDifference, tolerances: Tolerances) -> float:
-    """Return one of AMOUNTS for a movement: how far there is to go. 1 for hints that are no movement."""
-    error = errors_in_tolerances(difference, tolerances).get(hint)
-    return 1.0 if error is None else next(amount for reach, amount in AMOUNTS if error <= reach)
+def show_hints(moves: tuple[Hint, ...], difference: PoseDifference) -> tuple[ShownHint, ...]:
+    """Return movements with their amounts.
+
+    One that is alone and would lead out of the picture has half its way before it: a hand goes on for a
+    moment and must not get there. Of two that lead out alone, each makes room for the other.
+    """
+    return tuple(ShownHint(move, coarse_amount(move, difference, is_lone=len(moves) == 1)) for move in moves)
+
+
+def coarse_amount(hint: Hint, difference: PoseDifference, *, is_lone: bool = False) -> float:
+    """Return which of AMOUNTS is nearest to the way left for a movement; 1 for hints that are no movement."""
+    axis = next((i for i, pair in enumerate(DIRECTIONS) if hint in pair), None)
+    if axis is None:
+        return 1.0
+    share = difference.ways[axis] / (FAR_M if axis in SHIFTS else FAR_RAD)
+    share *= 0.5 if is_lone and difference.leads_out[axis] else 1.0
+    return min(AMOUNTS, key=lambda amount: abs(np.log(amount / max(share, AMOUNTS[0]))))
 
 
 def mirror_hint(hint: Hint) -> Hint:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from service.core.guidance.auto_capture import Obstacle, dwell_share
 from service.core.guidance.comparison import PoseDifference, match_share
-from service.core.guidance.hints import Hint, ShownHint, coarse_amount
+from service.core.guidance.hints import Hint, ShownHint, show_hints
 from service.core.guidance.session import GuidanceSettings, SessionState
 from service.core.vision.camera import project
 from service.core.vision.live_detection import BoardKind
@@ -83,6 +83,5 @@ def _hints(state: SessionState, settings: GuidanceSettings) -> tuple[ShownHint, 
         hint = KIND_HINTS.get(state.last.kind)
         return () if hint is None else (ShownHint(hint),)
     if state.moves:
-        difference = state.difference
-        return tuple(ShownHint(m, coarse_amount(m, difference, settings.tolerances)) for m in state.moves)
+        return show_hints(state.moves, state.difference)
     return (ShownHint(Hint.HOLD if state.obstacle is None else OBSTACLE_HINTS[state.obstacle]),)

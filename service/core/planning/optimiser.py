@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.errors import PoseSetInfeasible
 from service.core.planning.criterion import Criterion
@@ -16,6 +17,7 @@ from service.core.planning.pose_space import Indices, Mask
 from service.core.vision.transforms import Array
 
 Progress = Callable[[float], None]
+Floats = NDArray[np.float32]
 
 # In units of the candidates' mean information: enough to make the first pose's information invertible.
 PRIOR = 1e-4
@@ -84,7 +86,7 @@ class _Problem:
     """Candidates (d, m, p, p) in scaled parameters, with W; `near`: who is too near to a chosen one."""
 
     information: Array
-    flat: Array
+    flat: Floats
     metric: Array
     scaling: Array
     criterion: Criterion
@@ -108,7 +110,8 @@ class _Problem:
         scale = 1.0 / np.sqrt(np.diagonal(draws.mean(axis=(0, 1))))
         scaling = scale * scale[:, None]
         scaled = np.ascontiguousarray(draws * scaling)
-        flat = scaled.reshape(*scaled.shape[:2], -1)
+        # Single precision: slopes only choose who is looked at more closely.
+        flat = scaled.reshape(*scaled.shape[:2], -1).astype(np.float32)
         metric = criterion.metric * scaling
         middles = image_points.mean(axis=1)
         return cls(scaled, flat, metric, scaling, criterion, image_points, middles, separation_px, slots)
@@ -137,14 +140,12 @@ class _Problem:
 
     def allowed(self, others: list[int], slot: int) -> Mask:
         """Return which candidates (m,) may take a slot beside the others."""
-        allowed = np.ones(self.size, bool)
-        if slot < len(self.slots):
-            allowed &= self.slots[slot]
+        taken = np.zeros(self.size, bool)
         for i in others:
             if i not in self.near:
                 self.near[i] = self._too_near(i)
-            allowed &= ~self.near[i]
-        return allowed
+            taken |= self.near[i]
+        return ~taken & self.slots[slot] if slot < len(self.slots) else ~taken
 
     def _too_near(self, i: int) -> Mask:
         """Return which candidates (m,) are too near to the i-th, itself included."""
@@ -163,11 +164,11 @@ class _Problem:
         values: Array = (inverse.reshape(len(total), len(candidates), -1) @ self.metric.ravel()).mean(axis=0)
         return values
 
-    def slopes(self, total: Array) -> Array:
+    def slopes(self, total: Array) -> Floats:
         """Return by how much a little of each candidate (m,) would lower the value of a total (d, p, p)."""
         inverse = np.linalg.inv(total)
-        gradients = (inverse @ self.metric @ inverse).reshape(len(total), -1, 1)
-        slopes: Array = (self.flat[: len(total)] @ gradients)[..., 0].mean(axis=0)
+        gradients = (inverse @ self.metric @ inverse).reshape(len(total), -1, 1).astype(np.float32)
+        slopes: Floats = (self.flat[: len(total)] @ gradients)[..., 0].mean(axis=0)
         return slopes
 
 
@@ -226,7 +227,7 @@ def _improve_slot(
     return float(values[best]), without + problem.information[:, chosen[slot]]
 
 
-def _steepest(candidates: Indices, slope: Array) -> Indices:
+def _steepest(candidates: Indices, slope: Floats) -> Indices:
     """Return the candidates whose slope (m,) is largest, at most SHORTLIST of them."""
     if candidates.size <= SHORTLIST:
         return candidates

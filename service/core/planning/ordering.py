@@ -1,7 +1,7 @@
 """In which order the poses of a set are taken: first the easiest, then the shortest way for the hands.
 
 The way is an open path whose cost is the time that hands need between two poses: solved exactly for small
-sets, for larger ones by 2-opt and moves of short pieces from every possible second pose. Not here: which
+sets, for larger ones by 2-opt and moves of short pieces from each likely second pose. Not here: which
 poses.
 """
 
@@ -19,6 +19,7 @@ HAND_TURN_RAD_S: Final = np.deg2rad(60.0)
 
 LARGEST_EXACT: Final = 12
 PIECES: Final = (1, 2, 3)
+SECONDS: Final = 10  # poses that are tried as the second one, the nearest
 TINY_GAIN: Final = 1e-9
 
 
@@ -78,7 +79,8 @@ def _trace_back(best: Array, previous: Indices) -> list[int]:
 
 def _good_path(costs: Array, first: int) -> list[int]:
     """Return the best locally shortest path among those that begin with each possible second pose."""
-    starts = (_nearest_path(costs, first, second) for second in range(len(costs)) if second != first)
+    nearest = [int(i) for i in np.argsort(costs[first]) if i != first][:SECONDS]
+    starts = (_nearest_path(costs, first, second) for second in nearest)
     # A last stop that costs nothing makes the open path look like any other.
     padded = np.pad(costs, (0, 1))
     paths = (_improve_path(padded, [*path, len(costs)])[:-1] for path in starts)

@@ -30,6 +30,8 @@ FEWEST_POSES: Final = 3
 # How much of the work is done when the candidates are known, when the set is found, and the curve.
 SAMPLED, SELECTED, CURVED = 0.2, 0.7, 0.98
 WEIGHTED: Final = "weighted"
+# Of the zone; what is left out of it is promised nothing.
+LARGEST_UNREACHED: Final = 0.1
 
 
 @dataclass(frozen=True)
@@ -205,10 +207,13 @@ class _Search:
 
 
 def _mapping_jacobians(intrinsics: Intrinsics, zone: Region) -> Array:
-    """Return how pixels of the zone move with the parameters (k, 2, p); PoseSetInfeasible for a fold."""
+    """Return how pixels of the zone move with the parameters (k, 2, p), NaN where the lens does not reach.
+
+    Rough nominals often fold just before the image corner; PoseSetInfeasible where more than that is lost.
+    """
     J = compensated_jacobian(intrinsics, zone.grid(*GRID))
     unreached = int(np.count_nonzero(~np.all(np.isfinite(J), axis=(1, 2))))
-    if unreached:
+    if unreached > LARGEST_UNREACHED * len(J):
         raise PoseSetInfeasible(
             f"The lens model folds back inside the zone: it reaches only {len(J) - unreached} of {len(J)} "
             "places of it, so that nothing can be promised for the rest. Correct the nominal's coefficients, "

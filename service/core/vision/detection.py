@@ -23,7 +23,7 @@ from service.core.vision.board import (
 )
 from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
-from service.core.vision.grid_growth import complete_grid, measure_steps
+from service.core.vision.grid_growth import complete_grid, measure_steps, room_px
 from service.core.vision.light import LightFall, even_out, fit_light, read_cells
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
@@ -168,7 +168,8 @@ def _refined(
     width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
     wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)
     square = measure_steps(corners).square_px.ravel()
-    radii = np.maximum(np.minimum(wanted, np.floor(DISC_PER_SQUARE * square)), 2).astype(np.int64)
+    room = np.minimum(np.floor(DISC_PER_SQUARE * square), np.floor(room_px(blurred, corners.reshape(-1, 2))))
+    radii = np.maximum(np.minimum(wanted, room), 2).astype(np.int64)
     even, origin = even_out(blurred, light, corners.reshape(-1, 2), margin_px=int(3 * DISC_RADII_PX[1]))
     points, proven = refine_saddles(even, corners.reshape(-1, 2) - origin, radii, iterations=20)
     if not proven.all():

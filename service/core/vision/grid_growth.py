@@ -137,10 +137,12 @@ def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array, refine: Refine
     row, column = np.nonzero(~np.isnan(guesses[..., 0]) & ~np.isnan(steps.square_px))
     points = np.where(np.isnan(guesses), grid.points, np.nan)
     square = steps.square_px[row, column]
-    radii = np.clip(np.rint(0.3 * square), 2, 7).astype(np.int64)
+    # Near the border of the image less room is enough: the wanted board may well end there.
+    room = room_px(blurred, guesses[row, column])
+    radii = np.clip(np.minimum(np.rint(0.3 * square), np.floor(room)), 2, 7).astype(np.int64)
     near, proven = refine(blurred, guesses[row, column], radii)
     proven &= np.linalg.norm(near - guesses[row, column], axis=1) < FARTHEST * square
-    passed, corners = inspect_rings(blurred, near, np.clip(0.42 * square, 2.2, 10.0))
+    passed, corners = inspect_rings(blurred, near, np.clip(np.minimum(0.42 * square, room), 2.2, 10.0))
     dark = (row + column + grid.phase)[passed] % 2 == 0
     along = np.stack([corners.slots[:, 0], corners.slots[:, 1]], axis=-1)
     across_angle, down_angle = (
@@ -153,6 +155,13 @@ def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array, refine: Refine
     good = proven & passed
     points[row[good], column[good]] = near[good]
     return replace(grid, points=points)
+
+
+def room_px(image: FloatImage, points: Array) -> Array:
+    """Return how far (n,) px points (n, 2) are from the border of an image (h, w), less one pixel."""
+    last = np.array(image.shape[::-1]) - 1.0
+    room: Array = np.minimum(points, last - points).min(axis=1) - 1.0
+    return room
 
 
 def _sine(angle: Array, vector: Array) -> NDArray[np.float64]:

@@ -8,6 +8,7 @@ from uuid import uuid4
 import pytest
 
 from service.core.planning.document import pose_set_from_dict, pose_set_to_dict
+from service.core.planning.noise import FITTED_NOISE
 from service.storage.words import Role
 from service.usecases.pose_set_document import pose_set_document
 from tests.plant import SKU, Plant, pose_set, problem, revision
@@ -45,6 +46,7 @@ def test_a_planned_file_is_imported_and_exported_as_it_was(plant: Plant) -> None
     assert exported["prediction"]["norm_px"] == pytest.approx(document["prediction"]["norm_px"], rel=1e-9)
     assert answer.headers["content-disposition"].startswith('attachment; filename="tiny-r1-')
     origin = {"planner": pose_set().planner, "seed": 1, "candidates": 300, "objective": "balanced"}
+    assert exported["provenance"].pop("noise_source") == FITTED_NOISE.source
     assert exported["provenance"] == {"planner": "imported", "sigma_px": 0.1, "origin": origin}
     again = plant.expect(201, plant.post(PATH, exported))["pose_set"]
     assert again["poses"] == made["poses"]

@@ -102,7 +102,9 @@ def test_an_unknown_set_or_job_is_not_found(small_plant: Plant) -> None:
 
 def test_the_papers_procedure_is_there_to_compare_with(small_plant: Plant) -> None:
     small_plant.publish_sku(with_poses=False)
-    made = small_plant.expect(202, small_plant.post(PATH, {"planner": "paper", "candidates": 100}))
+    made = small_plant.expect(
+        202, small_plant.post(PATH, {"planner": "paper", "candidates": 100, "sets": 40})
+    )
 
     assert ended(small_plant, made["job"]["id"])["problem"] is None
     planned = small_plant.get(f"/pose-sets/{made['pose_set']['id']}").json()

@@ -50,6 +50,25 @@ def test_one_error_of_a_tilted_board_is_that_error_alone(seen: Pose, name: str, 
     assert not is_match(difference, TOLERANCES)
 
 
+def test_what_leads_out_alone_may_stay_in_the_picture_by_half_or_with_another() -> None:
+    """A board that must go left to the border and be turned upright: rolled as it is, it does not fit."""
+    upright, rolled = rotation_matrix(np.zeros(3)), rotation_matrix(np.array([0.0, 0.0, 0.5]))
+    wanted, seen = held((-0.21, 0.0, 0.6), upright), held((0.1, 0.0, 0.6), rolled)
+    difference = compare_pose(wanted, seen, CAMERA, TARGET)
+    assert difference.leads_out == (True, False, False, False, False, False)
+    assert not difference.half_leads_out[0]
+    assert difference.pairs_lead_out == {(0, 1), (0, 2), (0, 3), (0, 4)}
+
+
+def test_the_way_of_a_hand_is_in_metres_and_radians() -> None:
+    ahead = compare_pose(held((0.0, 0.0, 0.5)), held((0.0, 0.0, 0.6)), CAMERA, TARGET)
+    assert ahead.ways[2] == pytest.approx(0.1, rel=1e-6)
+    beside = compare_pose(EXPECTED, held((0.0, -0.01, 0.6)), CAMERA, TARGET)
+    assert beside.ways[:3] == pytest.approx((0.02, 0.0, 0.0), abs=2e-3)
+    turn = compare_pose(EXPECTED, held((0.02, -0.01, 0.6), turned(1, 20.0)), CAMERA, TARGET)
+    assert turn.ways[3:] == pytest.approx((0.0, np.deg2rad(20.0), 0.0), abs=1e-6)
+
+
 @pytest.mark.parametrize(
     ("axis", "edge", "further"),
     [(0, (0, -1), False), (1, (-1, 0), True)],

@@ -5,11 +5,15 @@ import pytest
 
 from service.core.guidance.comparison import PoseDifference, default_tolerances
 from service.core.guidance.hints import (
+    AMOUNTS,
     DIRECTIONS,
+    FAR_RAD,
     Hint,
+    ShownHint,
     choose_hints,
     coarse_amount,
     mirror_hint,
+    show_hints,
 )
 
 TOLERANCES = default_tolerances((1280, 800))
@@ -19,7 +23,8 @@ FIELDS = ("right_px", "down_px", "closer_share", "tilt_rad", "turn_rad", "roll_r
 def difference(**errors: float) -> PoseDifference:
     right, down, closer, tilt, turn, roll = (errors.get(name, 0.0) for name in FIELDS)
     none = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    return PoseDifference(right, down, closer, tilt, turn, roll, errors.get("corner_px", 100.0), False, none)
+    corner_px = errors.get("corner_px", 100.0)
+    return PoseDifference(right, down, closer, tilt, turn, roll, corner_px, False, none, ways=none)
 
 
 @pytest.mark.parametrize(
@@ -83,18 +88,52 @@ def test_what_would_take_the_board_out_of_the_picture_waits() -> None:
     far = difference(right_px=-500.0, roll_rad=0.3)
     blocked = replace(far, leads_out=(True, False, False, False, False, False))
     assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_LEFT, Hint.ROTATE_CLOCKWISE)
-    assert choose_hints(blocked, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
+    assert choose_hints(blocked, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE, Hint.MOVE_LEFT)
+    apart = replace(blocked, pairs_lead_out=frozenset({(0, 5)}))
+    assert choose_hints(apart, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
     stuck = replace(difference(right_px=-500.0), leads_out=blocked.leads_out)
     assert choose_hints(stuck, TOLERANCES, ()) == (Hint.MOVE_LEFT,)
 
 
+def test_two_are_named_together_only_if_the_board_stays_in_the_picture_then() -> None:
+    far = replace(difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3), pairs_lead_out=frozenset({(0, 5)}))
+    assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_LEFT, Hint.TILT_TOP_FORWARD)
+    alone = replace(far, pairs_lead_out=frozenset({(0, 5), (0, 3)}))
+    assert choose_hints(alone, TOLERANCES, ()) == (Hint.MOVE_LEFT,)
+
+
+def test_two_that_are_safe_only_together_are_named_together() -> None:
+    far = difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3)
+    none_alone = replace(far, leads_out=(True,) * 6, half_leads_out=(True, False, True, True, True, False))
+    others = replace(none_alone, pairs_lead_out=frozenset({(0, 3), (0, 5)}))
+    assert choose_hints(others, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE, Hint.TILT_TOP_FORWARD)
+    none_together = replace(none_alone, pairs_lead_out=frozenset({(0, 3), (0, 5), (3, 5)}))
+    assert choose_hints(none_together, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
+
+
+def test_a_lone_movement_that_leads_out_has_half_its_way_before_it() -> None:
+    out = replace(difference(), ways=(0.25, 0.0, 0.0, 0.0, 0.0, FAR_RAD), leads_out=(True,) * 6)
+    assert show_hints((Hint.MOVE_RIGHT,), out) == (ShownHint(Hint.MOVE_RIGHT, 0.6),)
+    both = show_hints((Hint.MOVE_RIGHT, Hint.ROTATE_CLOCKWISE), out)
+    assert [hint.amount for hint in both] == [1.0, 1.0]
+    inside = replace(out, leads_out=(False,) * 6)
+    assert show_hints((Hint.MOVE_RIGHT,), inside)[0].amount == 1.0
+
+
 def test_the_amount_is_coarse_and_falls_on_the_way() -> None:
+    ways = (0.5, 0.1, 0.03, 0.001)
     amounts = [
-        coarse_amount(Hint.MOVE_RIGHT, difference(right_px=px), TOLERANCES) for px in (900, 300, 100, 35)
+        coarse_amount(Hint.MOVE_RIGHT, replace(difference(), ways=(way, 0, 0, 0, 0, 0))) for way in ways
     ]
-    assert amounts == sorted(amounts, reverse=True)
-    assert set(amounts) <= {0.05, 0.1, 0.2, 0.4, 1.0}
-    assert coarse_amount(Hint.HOLD, difference(), TOLERANCES) == 1.0
+    assert amounts == [1.0, 0.4, 0.1, 0.02]
+    assert set(amounts) <= set(AMOUNTS)
+    assert coarse_amount(Hint.HOLD, difference()) == 1.0
+
+
+def test_a_turn_is_measured_against_what_is_far_for_a_turn() -> None:
+    half = replace(difference(), ways=(0.0, 0.0, 0.0, 0.0, 0.0, 0.6 * FAR_RAD))
+    assert coarse_amount(Hint.ROTATE_CLOCKWISE, half) == 0.6
+    assert coarse_amount(Hint.MOVE_DOWN, half) == AMOUNTS[0]
 
 
 def test_a_mirror_swaps_left_and_right_and_the_sense_of_rotation_and_nothing_else() -> None:

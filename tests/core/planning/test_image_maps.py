@@ -77,7 +77,7 @@ def test_the_angle_is_the_one_between_the_rays_of_the_moved_pixels() -> None:
         other = Intrinsics.from_vector("pinhole5", LENS1.vector + delta, LENS1.image_size)
         R = _best_turn(LENS1, other, held)
         moved = project(other, R, np.zeros(3), rays)
-        back = np.concatenate([unproject(LENS1, moved), np.ones((40, 1))], axis=-1)
+        back = unproject(LENS1, moved)
         cosine = np.sum(rays * back, axis=1) / np.linalg.norm(rays, axis=1) / np.linalg.norm(back, axis=1)
         squares.append(np.rad2deg(np.arccos(np.minimum(cosine, 1.0))) ** 2)
     np.testing.assert_allclose(1e3 * np.sqrt(np.mean(squares, axis=0)), found.sd_mdeg.ravel(), rtol=0.15)

@@ -236,3 +236,13 @@ def test_an_array_that_is_no_grey_image_is_refused(array: NDArray[np.uint8]) -> 
 def test_an_image_too_small_for_any_board_is_refused() -> None:
     with pytest.raises(Unprocessable, match="at least 32x32 px; this one is 640x31"):
         detect_target(np.zeros((31, 640), np.uint8), NINE_BY_SIX)
+
+
+@pytest.mark.parametrize("gap_px", [6.0, 8.0])
+def test_a_corner_close_to_the_border_is_found_and_right(gap_px: float) -> None:
+    # The squares are large, so that rings and discs of their usual size would leave the image.
+    centre = (3 * 70.0 + gap_px, 2 * 70.0 + gap_px)
+    board = draw_board(7, 5, square_px=70.0, tilt=0.0, centre=centre, sigma_px=0.9)
+    detection = detect_target(board.image(), board.target)
+    assert board.corners.min() == pytest.approx(gap_px)
+    assert errors_px(detection, board.corners).max() < 0.15

@@ -204,6 +204,8 @@ export interface NewPoseSet {
   draws?: number;
   /** `paper`: the paper's own procedure, as a baseline to compare with. */
   planner?: "exchange" | "paper";
+  /** Random sets that the paper's procedure scores. */
+  sets?: number;
   /** Import these poses instead of planning. */
   poses?: PoseShape[] | null;
   /** SKU that the poses were planned for. */
@@ -524,6 +526,8 @@ export interface Refinement {
   run_id: string;
   /** Of the plan: same seed, same poses. */
   seed?: number;
+  /** Poses to choose from. */
+  candidates?: number;
 }
 
 /** A rectangle of the image, px. */

@@ -124,6 +124,7 @@ export const de: Words = {
   gate_model: "Modell",
   gate_score: "Gütezahl",
   gate_bias: "Verzerrung",
+  gate_cross_check: "Gegenprobe",
   gate_identity: "Identität",
 
   intrinsics_title: "Intrinsik",

@@ -111,6 +111,7 @@ export const deKiosk: KioskWords = {
   remedy_poses: "Neu kalibrieren und dem gestrichelten Umriss genau folgen.",
   remedy_fit: "Target still halten und neu kalibrieren. Scheitert es wieder, das Target auf Schäden prüfen.",
   remedy_certainty: "Neu kalibrieren; jede Pose muss aufgenommen werden.",
+  remedy_cross_check: "Die Bilder sind vielleicht von zwei Kameras: Etikett prüfen, dann neu kalibrieren.",
   remedy_bias: "Prüfen, ob das Target eben und sauber ist, dann neu kalibrieren.",
   remedy_model: "Die Linse ist nicht wie angegeben: Kamera dem Qualitätsingenieur geben.",
   remedy_identity: "Das ist vielleicht eine andere Kamera als angegeben: Etikett und Kameratyp prüfen.",

@@ -122,6 +122,7 @@ export const en = {
   gate_model: "Model",
   gate_score: "Score",
   gate_bias: "Bias",
+  gate_cross_check: "Cross-check",
   gate_identity: "Identity",
 
   intrinsics_title: "Intrinsics",

@@ -106,6 +106,7 @@ export const enKiosk = {
   remedy_poses: "Calibrate again and follow the dashed outline closely.",
   remedy_fit: "Hold the board still and calibrate again. If it fails again, check the board for damage.",
   remedy_certainty: "Calibrate again; every pose must be taken.",
+  remedy_cross_check: "The pictures may be of two cameras: check the label, then calibrate again.",
   remedy_bias: "Check that the board is flat and clean, then calibrate again.",
   remedy_model: "The lens is not as declared: hand the camera to the quality engineer.",
   remedy_identity: "This may be another camera than declared: check the label and the camera type.",
