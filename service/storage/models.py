@@ -14,7 +14,7 @@ from sqlalchemy.orm import DeclarativeBase, Mapped, MappedAsDataclass, mapped_co
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.storage.columns import Json, UtcDateTime, new_id, word
-from service.storage.words import FrameOrigin, JobState, Publication, Role
+from service.storage.words import FrameOrigin, JobState, Language, Publication, Role
 
 JsonObject = dict[str, Any]
 JsonArray = list[Any]
@@ -148,6 +148,7 @@ class StationRow(Row):
     source: Mapped[str] = mapped_column(
         default=FrameOrigin.BROWSER.value, server_default=FrameOrigin.BROWSER.value
     )
+    language: Mapped[Language | None] = mapped_column(word(Language, "language"), default=None)
     created_at: Mapped[datetime]
 
 

@@ -31,6 +31,14 @@ class Role(StrEnum):
     ADMIN = "admin"
 
 
+class Language(StrEnum):
+    """What the pages speak, by ISO 639-1; their words are in `web/src/words`."""
+
+    EN = "en"
+    DE = "de"
+    ZH = "zh"
+
+
 class FrameOrigin(StrEnum):
     """Where live frames come from: the kiosk's own camera, the simulator, a camera that the service reads."""
 

@@ -16,7 +16,7 @@ from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose, RunState, check_serial
 from service.core.vision.transforms import Pose
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow, StationRow
-from service.storage.words import FrameOrigin, Publication
+from service.storage.words import FrameOrigin, Language, Publication
 from service.usecases.audit import record
 from service.usecases.frame_address import HELD, origin_of
 from service.usecases.guide_next_pose import read_postponed
@@ -73,6 +73,7 @@ class StationView:
     name: str
     source: str
     origin: FrameOrigin
+    language: Language | None
     run_id: UUID | None
     skus: list[str]
 
@@ -95,7 +96,9 @@ def read_station(session: Session, code: str) -> StationView:
     )
     skus = list(session.scalars(published))
     origin = origin_of(row.source)
-    return StationView(row.id, row.code, row.name, row.source, origin, _latest_open(session, row), skus)
+    return StationView(
+        row.id, row.code, row.name, row.source, origin, row.language, _latest_open(session, row), skus
+    )
 
 
 def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -> UUID:

@@ -1,6 +1,7 @@
-"""Stations: register the calibration places of a line, and say where their frames come from."""
+"""Stations: register the calibration places of a line; where their frames come from, what they speak."""
 
 from datetime import datetime
+from typing import Literal
 from uuid import UUID
 
 from sqlalchemy import select
@@ -8,7 +9,7 @@ from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound
 from service.storage.models import StationRow, TargetRow
-from service.storage.words import FrameOrigin
+from service.storage.words import FrameOrigin, Language
 from service.usecases.audit import record
 from service.usecases.frame_address import check_source, mask_source
 from service.usecases.paging import PageRequest, Part, page_of
@@ -21,6 +22,7 @@ def create_station(
     target_id: UUID | None,
     *,
     source: str = FrameOrigin.BROWSER.value,
+    language: Language | None = None,
     files: bool = False,
     who: str,
     now: datetime,
@@ -32,20 +34,36 @@ def create_station(
     check_source(source, files=files)
     if target_id is not None and session.get(TargetRow, target_id) is None:
         raise NotFound("There is no target of this id. Register the board first.", target_id=str(target_id))
-    row = StationRow(code=code, name=name, target_id=target_id, source=source, created_at=now)
+    row = StationRow(
+        code=code, name=name, target_id=target_id, source=source, language=language, created_at=now
+    )
     session.add(row)
     session.flush()
     record(session, now, who, "station.create", f"station:{code}", name=name, source=mask_source(source))
     return row
 
 
-def change_source(
-    session: Session, code: str, source: str, *, files: bool, who: str, now: datetime
+def change_station(
+    session: Session,
+    code: str,
+    *,
+    source: str | None = None,
+    language: Language | Literal["keep"] | None = "keep",
+    files: bool,
+    who: str,
+    now: datetime,
 ) -> StationRow:
-    """Give a station another source, from its next kiosk on; raises NotFound, SourceRefused."""
+    """Give a station another source (None: keep it) or language, from its next kiosk on.
+
+    language: None leaves it to the kiosk's browser. Raises NotFound, SourceRefused.
+    """
     row = get_station(session, code)
-    row.source = check_source(source, files=files)
-    record(session, now, who, "station.source", f"station:{code}", source=mask_source(source))
+    if source is not None:
+        row.source = check_source(source, files=files)
+        record(session, now, who, "station.source", f"station:{code}", source=mask_source(source))
+    if language != "keep":
+        row.language = language
+        record(session, now, who, "station.language", f"station:{code}", language=language)
     return row
 
 

@@ -23,6 +23,7 @@ from service.storage.models import (
     SkuRow,
     StationRow,
 )
+from service.storage.words import Language
 from service.usecases.paging import PageRequest, Part
 from service.usecases.run_filter import RunFilter, is_first_of_serial
 from service.usecases.runs import RunView, view_runs
@@ -72,6 +73,7 @@ class StationStanding:
     code: str
     name: str
     source: str  # with what is secret in it
+    language: Language | None
     open_run: RunView | None
     last_run: RunView | None
 
@@ -92,7 +94,9 @@ def list_station_standings(session: Session, page: PageRequest) -> Part[StationS
     opened = _newest(session, [row.id for row in part.items], RunState.OPEN)
     finished = _newest(session, [row.id for row in part.items], RunState.FINISHED)
     standings = [
-        StationStanding(row.code, row.name, row.source, opened.get(row.code), finished.get(row.code))
+        StationStanding(
+            row.code, row.name, row.source, row.language, opened.get(row.code), finished.get(row.code)
+        )
         for row in part.items
     ]
     return Part(standings, part.next_cursor)

@@ -64,6 +64,15 @@ def test_every_role_may_watch(station: Plant, role: Role) -> None:
         assert monitor.told[0]["source"] == "virtual"
 
 
+def test_the_welcome_names_the_stations_language(station: Plant) -> None:
+    with connected(station) as kiosk:
+        assert kiosk.told[0]["language"] is None
+    station.expect(200, station.call("PATCH", "/stations/cal1", json={"language": "de"}))
+
+    with connected(station) as kiosk:
+        assert kiosk.told[0]["language"] == "de"
+
+
 def test_a_revoked_key_is_sent_away(station: Plant) -> None:
     made = station.expect(201, station.post("/keys", {"name": "old", "role": "operator"}))
     station.expect(200, station.post(f"/keys/{made['id']}/revoke"))

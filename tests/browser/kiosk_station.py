@@ -1,6 +1,6 @@
 """Stations for kiosk tests: real service, simulated hands, small cameras; and what a person does there."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
@@ -19,14 +19,17 @@ A_RUN_MS = 150_000
 RunJson = dict[str, Any]
 
 
-def prepare_stations(serving: Serving) -> None:
-    """Publish a camera that passes and one that fails, and register stations for both."""
+def prepare_stations(serving: Serving, poses: int = POSES, limits: Mapping[str, float] | None = None) -> None:
+    """Publish a camera that passes and one that fails, and register stations for both.
+
+    limits: besides those of the cameras, for runs of so few poses that the usual ones would not pass.
+    """
     customer = Customer.of(serving.url, serving.key)
     with customer.http:
         for sku in (SKU, IMPOSSIBLE):
-            customer.describe_sku(sku)
+            customer.describe_sku({**sku, "limits": {**(limits or {}), **sku["limits"]}})
             asked = customer.ask(
-                "POST", f"/skus/{sku['code']}/revisions/1/pose-sets", json={"poses": poses_json()}
+                "POST", f"/skus/{sku['code']}/revisions/1/pose-sets", json={"poses": poses_json()[:poses]}
             )
             customer.ask("POST", f"/pose-sets/{asked['pose_set']['id']}/publish")
         for code, source in (("line1", "virtual"), ("line2", "virtual"), ("own", "browser")):

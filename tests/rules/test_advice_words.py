@@ -12,7 +12,7 @@ WORDS = Path(__file__).resolve().parents[2] / "web" / "src" / "words"
 ENTRY = re.compile(r"^  (\w+): \{", re.MULTILINE)
 
 
-@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("language", ["en", "de", "zh"])
 def test_every_reason_has_its_sentences(language: str) -> None:
     found = ENTRY.findall((WORDS / f"advice_{language}.ts").read_text())
 

@@ -45,7 +45,7 @@ CODES = {kind.code for kind in error_classes()}
 
 
 @pytest.mark.parametrize("code", sorted(CODES - ENDS - MONITORS - ELSEWHERE - WITH_FACTS))
-@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("language", ["en", "de", "zh"])
 def test_a_problem_at_a_kiosk_is_said_with_what_to_do(code: str, language: str) -> None:
     words = (WORDS / f"{language}_kiosk.ts").read_text()
     key = f"told_{code.replace('-', '_')}"

@@ -1,16 +1,16 @@
 """Stations: the calibration places of a line, and the board that stands at each."""
 
 from datetime import datetime
-from typing import Annotated
+from typing import Annotated, Self
 from uuid import UUID
 
 from fastapi import APIRouter
-from pydantic import ConfigDict, Field
+from pydantic import ConfigDict, Field, model_validator
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Of, PageOf, ReadDb
 from service.api.shapes import Answer, Page, Request, ShownSource
-from service.storage.words import FrameOrigin
+from service.storage.words import FrameOrigin, Language
 from service.usecases import stations
 from service.usecases.frame_address import MOST_CHARACTERS
 from service.usecases.text import Code, Label
@@ -30,6 +30,12 @@ Source = Annotated[
 ]
 
 
+Speaks = Annotated[
+    Language | None,
+    Field(strict=False, description="In which language the kiosk starts; null: in its browser's."),
+]
+
+
 class NewStation(Request):
     """A station to register."""
 
@@ -37,20 +43,30 @@ class NewStation(Request):
     name: Label
     target_id: UUID | None = Field(default=None, strict=False, description="Board that stands there.")
     source: Source = FrameOrigin.BROWSER.value
+    language: Speaks = None
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"code": "line1-cal2", "name": "Line 1, calibration 2"}]}
     )
 
 
-class NewSource(Request):
-    """Another source for a station."""
+class StationChange(Request):
+    """What a station gets; what is left out stays."""
 
-    source: Source
+    source: Source | None = None
+    language: Speaks = None
 
     model_config = ConfigDict(
-        json_schema_extra={"examples": [{"source": "rtsp://user:password@camera-17/stream1"}]}
+        json_schema_extra={
+            "examples": [{"source": "rtsp://user:password@camera-17/stream1"}, {"language": "zh"}]
+        }
     )
+
+    @model_validator(mode="after")
+    def _says_something(self) -> Self:
+        if self.source is None and "language" not in self.model_fields_set:
+            raise ValueError("Give the station's `source` or its `language`.")
+        return self
 
 
 class Station(Answer):
@@ -61,6 +77,7 @@ class Station(Answer):
     name: str
     target_id: UUID | None
     source: ShownSource
+    language: Language | None
     created_at: datetime
 
 
@@ -73,6 +90,7 @@ def create_station(body: NewStation, caller: Engineer, db: Db, of: Of) -> Statio
         body.name,
         body.target_id,
         source=body.source,
+        language=body.language,
         files=of.has_frames_dir,
         who=caller.name,
         now=of.clock.now(),
@@ -80,11 +98,17 @@ def create_station(body: NewStation, caller: Engineer, db: Db, of: Of) -> Statio
     return Station.model_validate(row)
 
 
-@router.patch("/{code}", summary="Change where a station's frames come from")
-def change_source(code: Code, body: NewSource, caller: Engineer, db: Db, of: Of) -> Station:
-    """Give a station another source. It holds from the next time that the station's kiosk connects."""
-    row = stations.change_source(
-        db, code, body.source, files=of.has_frames_dir, who=caller.name, now=of.clock.now()
+@router.patch("/{code}", summary="Change a station's source or language")
+def change_station(code: Code, body: StationChange, caller: Engineer, db: Db, of: Of) -> Station:
+    """Give a station another source or language, from the next time that its kiosk connects."""
+    row = stations.change_station(
+        db,
+        code,
+        source=body.source,
+        language=body.language if "language" in body.model_fields_set else "keep",
+        files=of.has_frames_dir,
+        who=caller.name,
+        now=of.clock.now(),
     )
     return Station.model_validate(row)
 

@@ -10,6 +10,7 @@ from service.api.auth import Viewer
 from service.api.dependencies import Now, PageOf, ReadDb
 from service.api.rest.runs import RunSummary
 from service.api.shapes import Answer, Page, ShownSource
+from service.storage.words import Language
 from service.usecases import statistics
 from service.usecases.text import Code
 
@@ -55,6 +56,7 @@ class StationStanding(Answer):
     code: str
     name: str
     source: ShownSource
+    language: Language | None
     open_run: RunSummary | None
     last_run: RunSummary | None
 

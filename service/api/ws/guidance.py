@@ -149,6 +149,7 @@ async def _serve(visit: Visit) -> None:
             station=station.code,
             name=station.name,
             source=station.origin,
+            language=station.language,
             role=visit.link.role,
             run_id=visit.desk.session.run.id if visit.desk.session else station.run_id,
             skus=station.skus,

@@ -15,7 +15,7 @@ from service.api.shapes import Answer, Request
 from service.api.ws.board_moves import MoveBoard
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
-from service.storage.words import FrameOrigin
+from service.storage.words import FrameOrigin, Language
 from service.usecases.text import Code
 
 PROTOCOL = 1
@@ -211,6 +211,7 @@ class Welcome(Told):
     station: str
     name: str
     source: FrameOrigin
+    language: Language | None = Field(description="That the kiosk starts in; null: its browser's.")
     role: Literal["kiosk", "monitor"]
     run_id: UUID | None
     skus: list[str] = Field(description="Codes that a run can be opened for, newest first.")

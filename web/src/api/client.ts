@@ -5,6 +5,7 @@ import { meansUnreachable, mustAskForKey, problemFrom, RequestFailed, UNREACHABL
 import { partPath, ROOT, runsPath, yieldPath, type RunsQuery } from "./paths";
 import type {
   CaptureDetail,
+  Language,
   PagePoseSetSummary,
   PageRunSummary,
   PageSku,
@@ -91,8 +92,19 @@ export function getStations(cursor: string | null, signal?: AbortSignal): Promis
 }
 
 export async function setStationSource(code: string, source: string): Promise<Station> {
+  return changeStation(code, { source });
+}
+
+export async function setStationLanguage(code: string, language: Language | null): Promise<Station> {
+  return changeStation(code, { language });
+}
+
+async function changeStation(
+  code: string,
+  body: { source: string } | { language: Language | null },
+): Promise<Station> {
   const path = `${ROOT}/stations/${encodeURIComponent(code)}`;
-  const answer = await request(path, undefined, { method: "PATCH", body: { source } });
+  const answer = await request(path, undefined, { method: "PATCH", body });
   return (await answer.json()) as Station;
 }
 

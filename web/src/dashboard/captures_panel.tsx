@@ -90,13 +90,14 @@ function Thumbnail({ capture, view, chosen, onChoose }: ThumbnailProps): JSX.Ele
   const say = words.value;
   const image = useImage(capture.image_url);
   const label = say.capture_number(capture.number);
+  const rms = view === undefined ? "" : withUnit(fixed(view.rms_px, 3), "px");
   return (
     <li>
       <button
         type="button"
         class="thumbnail"
         aria-pressed={chosen}
-        aria-label={label}
+        aria-label={`${label} ${rms}`.trim()}
         title={capture.file_name}
         onClick={() => onChoose(capture.id)}
       >
@@ -106,8 +107,8 @@ function Thumbnail({ capture, view, chosen, onChoose }: ThumbnailProps): JSX.Ele
           <span class="thumbnail-empty">{image.state === "failed" ? "×" : ""}</span>
         )}
         <span class="thumbnail-line">
-          <b>{capture.number}</b>
-          <span>{view === undefined ? "" : withUnit(fixed(view.rms_px, 3), "px")}</span>
+          <b>{capture.number}</b> {/* a space for those who hear it */}
+          <span>{rms}</span>
         </span>
       </button>
     </li>

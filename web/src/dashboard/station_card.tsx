@@ -6,6 +6,7 @@ import { standingOf } from "../shell/verdict_mark";
 import { words } from "../words/language";
 import { addressOf } from "./route";
 import { StandingTag } from "./runs_table";
+import { StationLanguage } from "./station_language";
 import { StationSource } from "./station_source";
 
 /** More poses than this are drawn as one bar: single fields would be too thin to count. */
@@ -28,6 +29,7 @@ export function StationCard({ station }: { station: StationStanding }): JSX.Elem
         {open === null ? <p class="muted">{say.station_idle}</p> : <OpenRun run={open} />}
       </div>
       <StationSource code={code} source={station.source} />
+      <StationLanguage code={code} language={station.language} />
       <div class="station-last">
         <span class="muted">{say.station_last}</span>
         {last === null ? <span class="muted">{say.station_no_verdict}</span> : <LastRun run={last} />}

@@ -2,7 +2,7 @@
 import { language, type Language } from "../words/language";
 
 /** Of the English orders of day and month only the one that cannot be misread. */
-const LOCALES: Readonly<Record<Language, string>> = { en: "en-GB", de: "de-DE" };
+const LOCALES: Readonly<Record<Language, string>> = { en: "en-GB", de: "de-DE", zh: "zh-CN" };
 
 export function localeOf(spoken: Language): string {
   return LOCALES[spoken];

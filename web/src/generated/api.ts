@@ -135,6 +135,9 @@ export type JobState = "queued" | "running" | "done" | "failed" | "cancelled";
 
 export type JsonValue = unknown;
 
+/** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
+export type Language = "en" | "de" | "zh";
+
 /** A limit of a gate as it is in force. */
 export interface Limit {
   /** Name of the limit, as in a SKU's document. */
@@ -229,14 +232,6 @@ export interface NewRun {
   purpose?: Purpose;
 }
 
-/** Another source for a station. */
-export interface NewSource {
-  /**
-   * Where live frames come from: the kiosk's own camera (`browser`), the simulator (`virtual`; `virtual:mouse`, whose board is moved at the kiosk), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), `v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.
-   */
-  source: string;
-}
-
 /** A station to register. */
 export interface NewStation {
   code: string;
@@ -247,6 +242,8 @@ export interface NewStation {
    * Where live frames come from: the kiosk's own camera (`browser`), the simulator (`virtual`; `virtual:mouse`, whose board is moved at the kiosk), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), `v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.
    */
   source?: string;
+  /** In which language the kiosk starts; null: in its browser's. */
+  language?: Language | null;
 }
 
 /** A board to register. */
@@ -779,7 +776,15 @@ export interface Station {
   target_id: string | null;
   /** Where frames come from; name, password and query of an address are shown as `***`. */
   source: string;
+  language: Language | null;
   created_at: string;
+}
+
+/** What a station gets; what is left out stays. */
+export interface StationChange {
+  source?: string | null;
+  /** In which language the kiosk starts; null: in its browser's. */
+  language?: Language | null;
 }
 
 /** A station with its newest open run and its newest finished one. */
@@ -788,6 +793,7 @@ export interface StationStanding {
   name: string;
   /** Where frames come from; name, password and query of an address are shown as `***`. */
   source: string;
+  language: Language | null;
   open_run: RunSummary | null;
   last_run: RunSummary | null;
 }

@@ -157,6 +157,9 @@ export interface HintSaid {
   amount: number;
 }
 
+/** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
+export type Language = "en" | "de" | "zh";
+
 /**
  * Move the virtual board of a station with the source `virtual:mouse`; moves add up until the next frame.
  *
@@ -339,6 +342,8 @@ export interface Welcome {
   station: string;
   name: string;
   source: FrameOrigin;
+  /** That the kiosk starts in; null: its browser's. */
+  language: Language | null;
   role: "kiosk" | "monitor";
   run_id: string | null;
   /** Codes that a run can be opened for, newest first. */

@@ -8,6 +8,9 @@ import { ClosedScreen } from "./closed_screen";
 import { Instruction } from "./instruction";
 import { Kiosk } from "./kiosk";
 import { isOnline, screenOf } from "./kiosk_state";
+import { IdleScreen } from "./idle_screen";
+import { PracticeBar } from "./practice_bar";
+import { PracticeResult } from "./practice_result";
 import { PictogramHead } from "./pictogram";
 import { QuestionBox } from "./question";
 import { SideColumn } from "./side_column";
@@ -15,12 +18,21 @@ import { Stage } from "./stage";
 import { StartScreen } from "./start_screen";
 import { StationForm } from "./station_form";
 import { useAwakeScreen } from "./use_awake_screen";
+import { useIdle } from "./use_idle";
 import { useKeys } from "./use_keys";
+import { usePractice } from "./use_practice";
+import { useSpeech } from "./use_speech";
 import { VerdictScreen } from "./verdict_screen";
 
 export function App({ named }: { named: string | null }): JSX.Element {
   const [station, setStation] = useState(named);
-  if (station === null) return <StationForm onChosen={(code) => setStation(nameStation(code))} />;
+  if (station === null) {
+    return (
+      <div class="kiosk">
+        <StationForm onChosen={(code) => setStation(nameStation(code))} />
+      </div>
+    );
+  }
   if (key.value === null) {
     return (
       <main>
@@ -45,6 +57,9 @@ function Station({ station, apiKey }: { station: string; apiKey: string }): JSX.
   }, [kiosk]);
   useKeys(kiosk);
   useAwakeScreen();
+  useIdle(kiosk);
+  usePractice(kiosk);
+  useSpeech(kiosk);
   useEffect(() => {
     document.title = `${station} · ${words.value.product}`;
   }, [station]);
@@ -53,6 +68,7 @@ function Station({ station, apiKey }: { station: string; apiKey: string }): JSX.
       <PictogramHead />
       <Bar kiosk={kiosk} />
       <Shown kiosk={kiosk} />
+      <IdleScreen kiosk={kiosk} />
     </div>
   );
 }
@@ -74,19 +90,24 @@ function Shown({ kiosk }: { kiosk: Kiosk }): JSX.Element {
     case "guide":
       return <Guide kiosk={kiosk} />;
     case "verdict":
-      return state.verdict === null ? (
-        <Connecting />
-      ) : (
-        <VerdictScreen kiosk={kiosk} verdict={state.verdict} />
-      );
+      return <Result kiosk={kiosk} />;
     case "connecting":
       return <Connecting />;
   }
 }
 
+function Result({ kiosk }: { kiosk: Kiosk }): JSX.Element {
+  const { verdict } = kiosk.state.value;
+  const practice = kiosk.practice.value;
+  if (verdict === null) return <Connecting />;
+  if (practice === null) return <VerdictScreen kiosk={kiosk} verdict={verdict} />;
+  return <PracticeResult key={verdict.run_id} kiosk={kiosk} practice={practice} verdict={verdict} />;
+}
+
 function Guide({ kiosk }: { kiosk: Kiosk }): JSX.Element {
   return (
-    <main class="guide">
+    <main class={kiosk.practice.value === null ? "guide" : "guide guide-practice"}>
+      <PracticeBar kiosk={kiosk} />
       <Stage kiosk={kiosk} />
       <Instruction kiosk={kiosk} />
       <SideColumn kiosk={kiosk} />

@@ -1,15 +1,18 @@
 // The kiosk itself: joins socket, camera, sounds and state. Screens read its signals and call its verbs.
 import { signal } from "@preact/signals";
-import type { ClientMessage, Run, ServerMessage, State } from "../generated/protocol";
+import type { ClientMessage, Purpose, Run, ServerMessage, State, Welcome } from "../generated/protocol";
 import { Camera } from "./camera";
 import { unpack } from "./framed";
 import { bounded, joined, NO_MOVE, unmirrored, type Move } from "./hand_moves";
 import { FIRST_STATE, isLive, nextState, screenOf, type KioskEvent } from "./kiosk_state";
 import { isMirrored, rememberMirrored } from "./mirror";
+import { speakAt } from "../words/language";
 import { Pace } from "./pace";
 import { MOST_UNDERWAY, NOTHING_SHOWN, Underway, type Picture, type Shown } from "./picture_feed";
+import { practiceSerial, type Practice } from "./practice";
 import { GuidanceSocket, socketAddress } from "./socket";
 import { isSoundOn, rememberSound, Sounds, type SoundName } from "./sound";
+import { isSpeechOn, rememberSpeech } from "./speech";
 import { chosenSku, rememberSku } from "./sku_choice";
 
 const PROTOCOL = 1;
@@ -27,7 +30,15 @@ export class Kiosk {
   readonly question = signal<Question | null>(null);
   readonly mirrored;
   readonly sound = signal(isSoundOn());
+  readonly speech = signal(isSpeechOn());
   readonly sku = signal<string | null>(null);
+  /** Whether a practice is prepared: what is scanned next is a badge. */
+  readonly isPractising = signal(false);
+  /** Of whoever practises; it leaves this page only for the browser's own memory. */
+  readonly badge = signal("");
+  readonly practice = signal<Practice | null>(null);
+  /** Nobody is there. */
+  readonly isIdle = signal(false);
   /** Whether an engineer wants to see how fast pictures come. */
   readonly figures = signal(false);
   readonly pace = new Pace();
@@ -83,6 +94,17 @@ export class Kiosk {
 
   /** A serial that was scanned or typed. */
   begin(serial: string): void {
+    if (this.isPractising.value) this.practise(serial);
+    else this.open(serial, null);
+  }
+
+  /** A run that counts for nobody, under a serial that no vehicle has; whose it is, the service never hears. */
+  practise(badge: string): void {
+    this.badge.value = badge;
+    this.open(practiceSerial(new Date()), "trial");
+  }
+
+  private open(serial: string, purpose: Purpose | null): void {
     const { run, verdict, welcome } = this.state.value;
     if (run !== null && verdict === null) {
       if (run.serial !== serial) this.refuseScan(run.serial);
@@ -96,7 +118,7 @@ export class Kiosk {
     }
     this.chime("scanned");
     if (verdict !== null) this.say({ type: "next_vehicle" });
-    this.say({ type: "open_run", serial, sku });
+    this.say({ type: "open_run", serial, sku, purpose });
   }
 
   capture(): void {
@@ -145,6 +167,11 @@ export class Kiosk {
     if (isOn) this.chime("stored");
   }
 
+  setSpeech(isOn: boolean): void {
+    rememberSpeech(isOn);
+    this.speech.value = isOn;
+  }
+
   setSku(code: string): void {
     rememberSku(this.station, code);
     this.readProblem();
@@ -188,8 +215,11 @@ export class Kiosk {
     if (message.type === "want_full_frame") this.camera.wantFull(message.sequence);
     if (message.type === "state") this.judge(this.underway.take(message.sequence), message);
     else this.happen({ kind: "told", message });
-    if (message.type === "welcome") this.sku.value = chosenSku(this.station, message.skus);
-    if (message.type === "run") this.useCamera(message);
+    if (message.type === "welcome") this.greet(message);
+    if (message.type === "run") {
+      this.isPractising.value = false;
+      this.useCamera(message);
+    }
     if (message.type === "run_closed") this.restCamera();
     if (message.type === "capture_accepted") this.chime("stored");
     if (message.type === "capture_refused") this.forgetRefusal();
@@ -198,6 +228,11 @@ export class Kiosk {
       this.restCamera();
       this.chime(message.verdict === "FAIL" ? "failed" : "passed");
     }
+  }
+
+  private greet(welcome: Welcome): void {
+    this.sku.value = chosenSku(this.station, welcome.skus);
+    speakAt(welcome.language);
   }
 
   /** A picture of a server-side source, with its state: decoded in order, drawn together, then acknowledged. */

@@ -8,6 +8,8 @@ import "../look/kiosk_guide.css";
 import "../look/kiosk_hand.css";
 import "../look/kiosk_pictograms.css";
 import "../look/kiosk_verdict.css";
+import "../look/kiosk_idle.css";
+import "../look/kiosk_practice.css";
 import "../look/kiosk_large.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";

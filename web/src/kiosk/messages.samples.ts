@@ -30,6 +30,7 @@ export function welcome(more: Partial<Welcome>): Welcome {
     station: "line1",
     name: "Line 1",
     source: "virtual",
+    language: null,
     role: "kiosk",
     run_id: null,
     skus: ["lens1"],

@@ -20,7 +20,7 @@ export function SideColumn({ kiosk }: { kiosk: Kiosk }): JSX.Element | null {
   return (
     <aside class="side">
       <header class="whose">
-        <span class="whose-serial">{run.serial}</span>
+        <h1 class="whose-serial">{run.serial}</h1>
         <span class="whose-sku">
           {run.sku} · {kiosk.state.value.welcome?.name ?? kiosk.station} <PurposeTag purpose={run.purpose} />
         </span>

@@ -5,6 +5,7 @@ import { words } from "../words/language";
 import type { Words } from "../words/en";
 import type { Kiosk } from "./kiosk";
 import type { Told } from "./kiosk_state";
+import { PracticeDoor, PracticeEntry } from "./practice_entry";
 import { problemText, sourceText } from "./said";
 import { Switches } from "./switches";
 
@@ -12,6 +13,7 @@ export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
   const say = words.value;
   const { welcome, problem } = kiosk.state.value;
   const skus = welcome?.skus ?? [];
+  const isPractising = kiosk.isPractising.value;
   return (
     <main class="start">
       <section class="start-card">
@@ -19,20 +21,27 @@ export function StartScreen({ kiosk }: { kiosk: Kiosk }): JSX.Element {
           {say.kiosk_title} <b>{welcome?.name ?? kiosk.station}</b>
           {welcome !== null && <span> · {sourceText(welcome.source, say)}</span>}
         </p>
-        <h1>{say.start_title}</h1>
-        {skus.length === 0 ? (
-          <p class="start-none" role="alert">
-            <strong>{say.start_no_sku}</strong> {say.start_no_sku_detail}
-          </p>
-        ) : (
-          <SerialForm kiosk={kiosk} say={say} />
-        )}
+        <h1>{isPractising ? say.practice_title : say.start_title}</h1>
+        {skus.length === 0 ? <NoSku say={say} /> : <Entry kiosk={kiosk} say={say} />}
         {skus.length > 1 && <SkuChoice kiosk={kiosk} skus={skus} say={say} />}
         {problem !== null && <StartProblem told={problem} say={say} />}
+        <PracticeDoor kiosk={kiosk} />
       </section>
-      <Switches kiosk={kiosk} />
+      <Switches kiosk={kiosk} isWhole />
     </main>
   );
+}
+
+function NoSku({ say }: { say: Words }): JSX.Element {
+  return (
+    <p class="start-none" role="alert">
+      <strong>{say.start_no_sku}</strong> {say.start_no_sku_detail}
+    </p>
+  );
+}
+
+function Entry({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element {
+  return kiosk.isPractising.value ? <PracticeEntry kiosk={kiosk} /> : <SerialForm kiosk={kiosk} say={say} />;
 }
 
 function SerialForm({ kiosk, say }: { kiosk: Kiosk; say: Words }): JSX.Element {
@@ -83,7 +92,7 @@ function SkuChoice({ kiosk, skus, say }: SkuProps): JSX.Element {
           aria-pressed={kiosk.sku.value === code}
           onClick={() => {
             kiosk.setSku(code);
-            document.getElementById("serial")?.focus();
+            document.querySelector<HTMLInputElement>(".serial-field")?.focus();
           }}
         >
           {code}

@@ -2,8 +2,10 @@ import { describe, expect, it } from "vitest";
 import { adviceOf, type Judged } from "./advice";
 import { adviceDe } from "./advice_de";
 import { adviceEn } from "./advice_en";
+import { adviceZh } from "./advice_zh";
 import { de } from "./de";
 import { en } from "./en";
+import { zh } from "./zh";
 
 const BLURRED: Judged = {
   verdict: "FAIL",
@@ -61,15 +63,18 @@ describe("the advice of a measurement", () => {
     for (const [language, say] of [
       ["en", en],
       ["de", de],
+      ["zh", zh],
     ] as const) {
       for (const verdict of ["PASS", "FAIL"]) {
         const isReported = !("bad" in adviceEn[reason]);
         if (isReported && verdict === "FAIL") continue;
         const { all } = adviceOf({ ...BLURRED, verdict, reason, facts }, language, say);
         expect(all).not.toMatch(/undefined|NaN|\?(?! *\))|^\s*$/);
-        expect(all).toMatch(/\.$/);
+        expect(all).toMatch(/[.。]$/);
       }
     }
-    expect(Object.keys(adviceDe[reason])).toEqual(Object.keys(adviceEn[reason]));
+    for (const other of [adviceDe, adviceZh]) {
+      expect(Object.keys(other[reason])).toEqual(Object.keys(adviceEn[reason]));
+    }
   });
 });

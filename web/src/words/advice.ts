@@ -1,8 +1,9 @@
 // What a measurement says, in the language of the page. Unknown codes (a newer service, an older result) stay as
-// the service said them, in English. Not here: the sentences (advice_en, advice_de).
+// the service said them, in English. Not here: the sentences (advice_en, advice_de, advice_zh).
 import { percent } from "../format/numbers";
 import { adviceDe } from "./advice_de";
 import { adviceEn } from "./advice_en";
+import { adviceZh } from "./advice_zh";
 import type { Words } from "./en";
 import type { Language } from "./language";
 
@@ -45,7 +46,11 @@ export interface Said {
   lang: Language;
 }
 
-const ADVICE: Readonly<Record<Language, Readonly<Record<string, Advice>>>> = { en: adviceEn, de: adviceDe };
+const ADVICE: Readonly<Record<Language, Readonly<Record<string, Advice>>>> = {
+  en: adviceEn,
+  de: adviceDe,
+  zh: adviceZh,
+};
 
 export function adviceOf(measurement: Judged, language: Language, say: Words): Said {
   const found = measurement.reason === null ? undefined : ADVICE[language][measurement.reason];

@@ -1,12 +1,14 @@
 // Every text of the pages in German.
 import { deKiosk } from "./de_kiosk";
 import { deHelp } from "./de_help";
+import { dePractice } from "./de_practice";
 import { deReview } from "./de_review";
 import type { Words } from "./en";
 
 export const de: Words = {
   ...deKiosk,
   ...deHelp,
+  ...dePractice,
   ...deReview,
 
   language: "Deutsch",
@@ -274,6 +276,9 @@ export const de: Words = {
   provenance_sigma_px: "Eckenrauschen, px",
   provenance_objective: "Ziel",
   provenance_planner: "Planer",
+  provenance_weights: "Gewichte",
+  provenance_draws: "Kameras und Hände",
+  provenance_noise_source: "Rauschen je Pose aus",
   fact_mapping_short: "Abbildungsfehler",
   fact_norm: "Norm des Parameterfehlers",
   fact_norm_note: "das Maß der Vorlage",

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { de } from "./de";
 import { en } from "./en";
-import { firstLanguage } from "./language";
+import { firstLanguage, languageAt, nextLanguage } from "./language";
+import { zh } from "./zh";
 import { gateName, measurementName, purposeName } from "./measurements";
 
 describe("the first language", () => {
@@ -13,22 +14,44 @@ describe("the first language", () => {
     expect(firstLanguage(null, ["fr-FR", "de-AT", "en"])).toBe("de");
   });
 
+  it("is Chinese for any Chinese of the browser", () => {
+    expect(firstLanguage(null, ["zh-Hans-CN", "en"])).toBe("zh");
+  });
+
   it("is else English, also when something odd was stored", () => {
     expect(firstLanguage("xx", ["fr"])).toBe("en");
   });
 });
 
+describe("at a station", () => {
+  it("is the station's, unless somebody switched or the station has none", () => {
+    expect(languageAt("zh", false, "en")).toBe("zh");
+    expect(languageAt("zh", true, "en")).toBe("en");
+    expect(languageAt(null, false, "de")).toBe("de");
+    expect(languageAt("of-a-newer-service", false, "de")).toBe("de");
+  });
+
+  it("goes round all of them by one button", () => {
+    expect([nextLanguage("en"), nextLanguage("de"), nextLanguage("zh")]).toEqual(["de", "zh", "en"]);
+  });
+});
+
 describe("texts", () => {
   it("are none of them empty", () => {
-    for (const words of [en, de]) {
+    for (const words of [en, de, zh]) {
       for (const [name, text] of Object.entries(words)) {
         if (typeof text === "string") expect(text, name).not.toBe("");
       }
     }
   });
 
-  it("name measurements in both languages, and unknown ones as they come", () => {
+  it("of each language say as much as the English ones", () => {
+    for (const words of [de, zh]) expect(Object.keys(words).sort()).toEqual(Object.keys(en).sort());
+  });
+
+  it("name measurements in each language, and unknown ones as they come", () => {
     expect(measurementName("coverage", "de")).toBe("Abdeckung der Zone");
+    expect(measurementName("coverage", "zh")).toBe("工作区覆盖");
     expect(measurementName("brand_new_px", "en")).toBe("brand new px");
     expect(gateName("fit", de)).toBe("Anpassung");
     expect(gateName("brand-new", de)).toBe("brand-new");
