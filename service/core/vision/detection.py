@@ -16,6 +16,7 @@ from service.core.errors import TargetNotVisible, Unprocessable
 from service.core.vision.board import (
     is_larger,
     is_whole,
+    nearest_whole,
     order_corners,
     prominent_grids,
     refuse_larger,
@@ -42,6 +43,7 @@ DISC_RADII_PX = (3.0, 8.0)
 DISC_PER_EDGE_WIDTH = 1.5
 DISC_PER_SQUARE = 0.4
 LEAST_SEPARATION = 0.2
+SHARE_OF_A_RIVAL = 0.6  # of the target's corners that a second board must show at first sight
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def _find_board(image: NDArray[np.uint8], blurred: FloatImage, target: Chessboar
     most_seen = 0
     for scaled, scale in _scales(image):
         grids = prominent_grids(_grids(scaled, scale, blurred, target))
-        whole = next((grid for grid in grids if is_whole(grid, target)), None)
+        whole = nearest_whole(grids, target)
         if whole is not None:
             return whole
         sure = [whole_lines(grid, SHARE_OF_A_SURE_LINE) for grid in grids]
@@ -137,15 +139,16 @@ def _grids(
 ) -> list[CornerGrid]:
     """Return the completed grids, in full-size pixels, of a scaled image."""
     corners = find_corners(scaled)
-    rounds = max(target.columns, target.rows)
+    rounds, needed = max(target.columns, target.rows), target.columns * target.rows
     found: list[CornerGrid] = []
     for grid in number_corners(corners, link_corners(corners))[:GRIDS_PER_SCALE]:
+        # After a whole board only another of its kind matters, of which the larger one is taken.
+        if found and is_whole(found[0], target) and grid.known.sum() < SHARE_OF_A_RIVAL * needed:
+            continue
         full = replace(grid, points=(grid.points + 0.5) / scale - 0.5)
         if not any(_lies_inside(full, stronger) for stronger in found):
             lines = whole_lines(complete_grid(blurred, full, rounds))
             found.append(without_rims(blurred, lines) if is_larger(lines, target) else lines)
-        if len(found) == 1 and is_whole(found[0], target):
-            break
     return found
 
 
