@@ -44,7 +44,7 @@ def is_whole(grid: CornerGrid, target: Chessboard) -> bool:
 
 
 def nearest_whole(grids: list[CornerGrid], target: Chessboard) -> CornerGrid | None:
-    """Return the largest grid in the picture that is the whole target, so that of two it is always the same."""
+    """Return the grid that is the whole target, of several the largest in the picture."""
     whole = [grid for grid in grids if is_whole(grid, target)]
     return max(whole, key=area) if whole else None
 

@@ -28,6 +28,7 @@ from service.core.vision.grid_growth import complete_grid, measure_steps
 from service.core.vision.light import LightFall, even_out, fit_light, read_cells
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
+from service.core.vision.pixel_noise import noise_around
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage, smooth
 from service.core.vision.sharpness import Sharpness, measure_sharpness
@@ -40,6 +41,10 @@ GRIDS_PER_SCALE = 3
 PROVING_SIGMA_PX = 1.2
 REFINING_SIGMA_PX = 1.0
 DISC_RADII_PX = (3.0, 8.0)
+NOISY_SHARE = 0.008  # of the contrast, from which on the noise matters more than how a board is printed
+WIDE_SQUARE_PX = 24.0  # smaller height of the squares from which on more of the edges is used
+WIDE_SIGMA_PX = 2.0
+WIDE_DISC_PX = 5.0
 DISC_PER_EDGE_WIDTH = 1.5
 DISC_PER_SQUARE = 0.4
 LEAST_SEPARATION = 0.2
@@ -78,7 +83,8 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
     light = fit_light(cells)
     parity = measure_parity(cells, light)
     _check_parity(parity, target)
-    points = _refined(blurred, corners, light, sharpness, target)
+    noise_share = noise_around(image, corners.reshape(-1, 2)) / max(float(parity.contrast), 1.0)
+    points = _refined(blurred, corners, light, _discs(corners, sharpness, noise_share), target)
     return Detection(
         image_points=points,
         corner_ids=np.arange(len(points)),
@@ -161,19 +167,42 @@ def _lies_inside(grid: CornerGrid, other: CornerGrid) -> bool:
     return bool(cv2.pointPolygonTest(hull, (float(x), float(y)), False) >= 0)
 
 
-def _refined(
-    blurred: FloatImage, corners: Array, light: LightFall, sharpness: Sharpness, target: Chessboard
-) -> Array:
-    """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be.
+@dataclass(frozen=True)
+class Discs:
+    """Of the fits of n corners: radii (n,) px, and which (n,) are fitted to a smoother surface."""
 
-    The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc.
+    radii: NDArray[np.int64]
+    wide: NDArray[np.bool_]
+
+
+def _discs(corners: Array, sharpness: Sharpness, noise_share: float) -> Discs:
+    """Return how much of its surroundings each of the corners (rows, columns, 2) px is fitted to.
+
+    The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc. In
+    a noisy picture large squares give more of their edges, which averages the noise; else the nearest
+    surroundings are best, as no print is perfect. noise_share: sd of the noise over the contrast.
     """
     width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
     wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)
     square = measure_steps(corners).square_px.ravel()
+    wide = (noise_share >= NOISY_SHARE) & (square >= WIDE_SQUARE_PX)
+    wanted = np.where(wide, np.maximum(wanted, WIDE_DISC_PX), wanted)
     radii = np.maximum(np.minimum(wanted, np.floor(DISC_PER_SQUARE * square)), 2).astype(np.int64)
+    return Discs(radii, wide)
+
+
+def _refined(
+    blurred: FloatImage, corners: Array, light: LightFall, discs: Discs, target: Chessboard
+) -> Array:
+    """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be."""
     even, origin = even_out(blurred, light, corners.reshape(-1, 2), margin_px=int(3 * DISC_RADII_PX[1]))
-    points, proven = refine_saddles(even, corners.reshape(-1, 2) - origin, radii, iterations=20)
+    points = corners.reshape(-1, 2) - origin
+    proven = np.zeros(len(points), dtype=bool)
+    smoother = smooth(even, float(np.sqrt(WIDE_SIGMA_PX**2 - REFINING_SIGMA_PX**2)))
+    for group, surface in ((~discs.wide, even), (discs.wide, smoother)):
+        points[group], proven[group] = refine_saddles(
+            surface, points[group], discs.radii[group], iterations=20
+        )
     if not proven.all():
         raise refuse_partial(int(proven.sum()), target)
     return points + origin

@@ -1,8 +1,9 @@
 """Which grid of a live frame is the board, and whether the rest may be spoken of as a part or a larger one.
 
-Of two equal boards the larger in the picture counts, and a part of a near one hides a whole one far behind it,
-as on a capture. A perforated plate makes grids too: it looks even at a corner, where a chessboard is midway
-between dark and bright; it goes on and on; and where it does not link as a whole, much else links beside it.
+Of two equal boards the larger in the picture counts, and a part of a near one hides a whole one far
+behind, as on a capture. A perforated plate makes grids too: it looks even at a corner, where a chessboard is
+midway between dark and bright; it goes on and on; and where it does not link as a whole, much else links
+beside it.
 Not here: how grids are found (`live_corners`, `corner_grid`).
 """
 
