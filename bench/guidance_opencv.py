@@ -51,8 +51,8 @@ def finders(target: Chessboard) -> Mapping[str, Finder]:
 def compare(frames: list[tuple[Image, Array | None]], look: Look, target: Chessboard) -> dict[str, Any]:
     """Return everybody's times and rates on frames with their true corners (None: not the whole board).
 
-    `ours` is the detector by itself, as OpenCV's are, and what the speed-ups are of; `to_state` is `look`, all
-    the way to the state.
+    `ours` is the detector by itself, as OpenCV's are, and what the speed-ups are of; `to_state` is `look`, to
+    the state.
     """
     workspace = LiveWorkspace()
     rows = {

@@ -51,7 +51,7 @@ def run(quick: bool) -> dict[str, Any]:
         data_dir = Path(directory) / "data"
         data_dir.mkdir()
         with running_service(data_dir, 0) as service:
-            stations = _prepare(Customer.of(service.url, service.key), sku)
+            stations = prepare_stations(Customer.of(service.url, service.key), sku)
             for count in QUICK_COUNTS if quick else range(1, MOST + 1):
                 seconds = QUICK_S if quick else FULL_S
                 orders = Orders(
@@ -109,7 +109,7 @@ def summarise(heard: list[Heard], cpu_s: float) -> dict[str, Any]:
     }
 
 
-def _prepare(customer: Customer, sku: Mapping[str, Any]) -> list[str]:
+def prepare_stations(customer: Customer, sku: Mapping[str, Any]) -> list[str]:
     """Publish the SKU with a pose set and register stations whose kiosks have the camera."""
     camera, target = nominal_camera(sku), parse_target(sku["target"])
     sampled = sample_poses(PoseSpace(), camera, target, POSES, SEED)
