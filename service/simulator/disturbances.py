@@ -93,10 +93,14 @@ def perforate(size: tuple[int, int], holes: Holes) -> Array:
 def put_behind(prepared: PreparedScene, target: Chessboard, pose: Pose, gain: float = 1.0) -> PreparedScene:
     """Return the scene with another board in its background, `gain` times as bright as the first."""
     scene = prepared.scene
-    levels = {"white_grey": gain * scene.white_grey, "dark_grey": gain * scene.dark_grey}
     other = replace(
         prepared,
-        scene=replace(scene, target=target, **levels),
+        scene=replace(
+            scene,
+            target=target,
+            white_grey=gain * scene.white_grey,
+            dark_grey=gain * scene.dark_grey,
+        ),
         plate=make_plate(target, scene.border_squares),
     )
     return replace(prepared, background=other.light(pose) / prepared.falloff)
