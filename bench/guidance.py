@@ -1,31 +1,30 @@
-"""Live guidance, frame in to state out: times, what is found of random poses, and OpenCV on the same frames.
+"""Live guidance, frame in to state out: times, what is found, hard conditions, and OpenCV on the same frames.
 
 Exact pictures of a plant's pose space, the board any way up: whole, cut by the border, absent (backgrounds,
-noise). One thread. The state is what an operator's page gets: detection, pose, comparison, hints and the
-session's step. Every frame is looked for from scratch: there is no tracking, and its keys are those of
-`first`.
+noise); a thousand random poses and as many empty frames; named hard conditions; a mixed set that OpenCV's
+finders see as well; corners of captures against the truth. One thread, times of the wall and of the CPU.
+Every frame is looked for from scratch: there is no tracking, and its keys are those of `first`.
 """
 
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
+from bench.corner_error import measure_corner_error
 from bench.detection import LENS1, SPACE, TARGET, WRONG_PX, cut_off, judge, opencv_corners
-from service.core.errors import PoseUndetermined
-from service.core.guidance.actions import Frame
-from service.core.guidance.comparison import default_tolerances
-from service.core.guidance.observation import Observation
-from service.core.guidance.session import GuidanceSettings, start_session, step
-from service.core.guidance.session_view import view
+from bench.frame_to_state import Image, Look, guide
+from bench.guidance_opencv import compare, mix
+from bench.guidance_rates import rate_empty_frames, rate_random_poses
+from bench.guidance_words import describe
+from bench.hard_frames import measure_conditions
+from bench.timing import spread, time_each
 from service.core.planning.pose_space import sample_poses
 from service.core.vision.camera import Intrinsics
 from service.core.vision.live_detection import LiveDetection, LiveWorkspace, detect_live
-from service.core.vision.pose import estimate_pose
 from service.core.vision.transforms import Array, Pose
 from service.simulator.background import paint_background
 from service.simulator.live_renderer import LiveRenderer
@@ -38,23 +37,40 @@ LENS2 = Intrinsics.from_parameters(
     (1920, 1208),
 )
 SEED = 11
-QUICK_POSES, POSES = 24, 200
+QUICK_POSES, POSES = 12, 200
 NOWHERE = Pose(np.zeros(3), np.array([50.0, 0.0, 1.0]))
 NOISE_SIGMAS_PX = (0.6, 1.0, 1.5, 2.0, 3.0, 5.0)
 JPEG_QUALITY = 80
+NEGATIVES = Path(__file__).parents[2] / "shared" / "data" / "neg_udacity_road"
 
-Image = NDArray[np.uint8]
-Look = Callable[[Image], LiveDetection]
-Given = TypeVar("Given")
-Made = TypeVar("Made")
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is tried: boards of each kind, random poses and empty frames, frames of each
+    condition, mixed frames, captures."""
+
+    poses: int
+    many: int
+    each: int
+    mixed: int
+    captures: int
+
+
+QUICK = Effort(QUICK_POSES, 16, 1, 10, 6)
+FULL = Effort(POSES, 1000, 40, 100, 100)
+FULL_LARGE = replace(FULL, many=300, each=20, mixed=60)
 
 
 def run(quick: bool) -> dict[str, Any]:
     """Return both image sizes' figures under `1280x800` and `1920x1208`."""
+    efforts = (QUICK, QUICK) if quick else (FULL, FULL_LARGE)
     threads = cv2.getNumThreads()
     cv2.setNumThreads(1)
     try:
-        sizes = {_size(camera): measure(camera, QUICK_POSES if quick else POSES) for camera in (LENS1, LENS2)}
+        sizes = {
+            _size(camera): measure(camera, effort)
+            for camera, effort in zip((LENS1, LENS2), efforts, strict=True)
+        }
     finally:
         cv2.setNumThreads(threads)
     return {**sizes, "tracking": "none: every frame is looked for from scratch", "seeds": [SEED]}
@@ -62,20 +78,21 @@ def run(quick: bool) -> dict[str, Any]:
 
 def table(result: Mapping[str, Any]) -> str:
     """Return the result as text."""
-    columns = ("p50_ms", "p95_ms", "p99_ms", "max_ms", "cpu_p95_ms")
+    columns = ("p50_ms", "p95_ms", "p99_ms", "max_ms", "cpu_p50_ms", "cpu_p95_ms", "cpu_p99_ms", "cpu_max_ms")
     lines = [" ".join([f"{'frame':<24}", *(f"{column:>10}" for column in columns)])]
     for size in (_size(camera) for camera in (LENS1, LENS2)):
         row = result[size]
         for name in ("first", "partial", "absent"):
             times = (f"{row[name][column]:>10.1f}" for column in columns)
             lines.append(" ".join([f"{size + ' ' + name:<24}", *times]))
-        lines += [f"{size} {words}" for words in _words(row)]
+        lines += [f"{size} {words}" for words in describe(row)]
     lines.append(f"tracking: {result['tracking']}")
     return "\n".join(lines)
 
 
-def measure(camera: Intrinsics, count: int) -> dict[str, Any]:
-    """Return the figures of one camera from `count` whole boards and a quarter as many of each other kind."""
+def measure(camera: Intrinsics, effort: Effort) -> dict[str, Any]:
+    """Return the figures of one camera; of boards cut off and frames without one a quarter as many."""
+    count = effort.poses
     prepared = prepare(production_scene(camera, TARGET, seed=SEED))
     sampled = sample_poses(SPACE, camera, TARGET, count, SEED)
     poses = [sampled.pose(i) for i in range(len(sampled))]
@@ -84,7 +101,7 @@ def measure(camera: Intrinsics, count: int) -> dict[str, Any]:
     truths = [true_corners(prepared.scene, pose) for pose in poses]
     cut = [prepared.render(cut_off(pose, camera), rng) for pose in poses[::4]]
     nothing = _frames_without_a_board(prepared, count // 4, rng)
-    frame_to_state = _guide(camera, poses)
+    frame_to_state = guide(camera, TARGET, poses)
     frame_to_state(whole[0])  # the first frame of all allocates the buffers
     kinds = {"first": whole, "partial": cut, "absent": nothing}
     seen = {name: time_each(frame_to_state, images) for name, images in kinds.items()}
@@ -105,24 +122,15 @@ def measure(camera: Intrinsics, count: int) -> dict[str, Any]:
         ],
         "false_alarms": sum(detection.kind != "absent" for detection in seen["absent"][1]) / len(nothing),
         "called_whole_though_cut": sum(found.kind == "present" for found in seen["partial"][1]) / len(cut),
+        "random_poses": rate_random_poses(prepared, frame_to_state, effort.many, SEED),
+        "empty_frames": rate_empty_frames(prepared, frame_to_state, effort.many, SEED),
+        "real_negatives": _real_negatives(frame_to_state),
+        "conditions": measure_conditions(prepared, frame_to_state, poses[: effort.each], SEED),
+        "mixed": compare(mix(prepared, effort.mixed, SEED), frame_to_state, TARGET),
+        "corner_error": measure_corner_error(camera, TARGET, effort.captures, SEED),
         "live_renderer": _time_renderer(prepared, poses),
         "frames": {name: len(images) for name, images in kinds.items()},
     }
-
-
-@dataclass(frozen=True)
-class Timed:
-    """Times of frames, ms, on the wall's clock and on the thread's own, which others cannot make longer."""
-
-    wall_ms: list[float]
-    cpu_ms: list[float]
-
-
-def spread(timed: Timed) -> dict[str, float]:
-    """Return the median, 95th and 99th percentile and maximum of the wall's times, ms, and CPU's 95th."""
-    p50, p95, p99 = (float(value) for value in np.percentile(timed.wall_ms, (50, 95, 99)))
-    cpu_p95 = float(np.percentile(timed.cpu_ms, 95))
-    return {"p50_ms": p50, "p95_ms": p95, "p99_ms": p99, "max_ms": max(timed.wall_ms), "cpu_p95_ms": cpu_p95}
 
 
 def judge_found(found: list[LiveDetection], truths: list[Array]) -> dict[str, float]:
@@ -144,51 +152,11 @@ def judge_found(found: list[LiveDetection], truths: list[Array]) -> dict[str, fl
     }
 
 
-def _guide(camera: Intrinsics, poses: list[Pose]) -> Look:
-    """Return what makes the next state of a session from a frame, 20 frames a second."""
-    settings = GuidanceSettings(camera, TARGET, default_tolerances(camera.image_size))
-    workspace = LiveWorkspace()
-    state = start_session(poses)
-    at_s = 0.0
-
-    def see(image: Image) -> LiveDetection:
-        nonlocal state, at_s
-        at_s += 0.05
-        found = detect_live(image, TARGET, workspace)
-        state, _ = step(state, Frame(_observe(found, camera, at_s)), settings)
-        view(state, settings)
-        return found
-
-    return see
-
-
-def _observe(found: LiveDetection, camera: Intrinsics, at_s: float) -> Observation:
-    pose = None
-    if found.image_points is not None:
-        try:
-            pose = estimate_pose(camera, TARGET.object_points, found.image_points).pose
-        except PoseUndetermined:
-            pose = None
-    return Observation(
-        at_s,
-        found.kind,
-        found.corners_seen,
-        pose,
-        found.image_points,
-        found.edge_width_px,
-        found.brightness,
-    )
-
-
-def time_each(act: Callable[[Given], Made], given: Sequence[Given]) -> tuple[Timed, list[Made]]:
-    """Return how long an act took for each of what is given, and what it made."""
-    timed, made = Timed([], []), []
-    for item in given:
-        began, began_cpu = time.perf_counter(), time.thread_time()
-        made.append(act(item))
-        timed.wall_ms.append(1e3 * (time.perf_counter() - began))
-        timed.cpu_ms.append(1e3 * (time.thread_time() - began_cpu))
-    return timed, made
+def _real_negatives(look: Look) -> dict[str, Any]:
+    """Return what photographs of roads are called, where they are there."""
+    images = [cv2.imread(str(file), cv2.IMREAD_GRAYSCALE) for file in sorted(NEGATIVES.glob("*.jpg"))]
+    found = [look(np.asarray(image, dtype=np.uint8)) for image in images if image is not None]
+    return {"frames": len(found), "false": sum(one.kind != "absent" for one in found)}
 
 
 def _detection_alone(kinds: Mapping[str, list[Image]], truths: list[Array]) -> dict[str, Any]:
@@ -228,21 +196,6 @@ def _time_renderer(prepared: PreparedScene, poses: list[Pose]) -> dict[str, floa
     live, rng = LiveRenderer(prepared.scene), np.random.default_rng(SEED)
     timed, _ = time_each(lambda pose: live.frame(pose, rng), poses)
     return {**spread(timed), "frames_per_s": 1e3 / float(np.mean(timed.cpu_ms))}
-
-
-def _words(row: Mapping[str, Any]) -> list[str]:
-    alone, found, live = row["detection"], row["found"], row["live_renderer"]
-    p95 = ", ".join(f"{name} {alone[name]['p95_ms']:.1f}" for name in ("first", "partial", "absent"))
-    right = f"found {row['detection_rate']:.3f}, wrong {found['wrong']:.3f}, rms {found['rms_px']:.3f} px"
-    alarms = f"false alarms {row['false_alarms']:.3f}, cut called whole {row['called_whole_though_cut']:.3f}"
-    theirs = f"OpenCV: found {row['opencv_detection_rate']:.3f}, p95 {row['opencv_p95_ms']:.1f} ms"
-    drawn = f"live renderer: {live['p50_ms']:.1f} ms, {live['frames_per_s']:.0f} frames/s of one core"
-    return [
-        f"detection alone, p95 ms: {p95}",
-        f"{right}; {alarms}",
-        f"{theirs} ({row['speedup_p95']:.1f} times), without a board {row['opencv_absent_p95_ms']:.1f} ms",
-        f"{drawn}; decoding a JPEG: {row['decode_ms']:.1f} ms",
-    ]
 
 
 def _size(camera: Intrinsics) -> str:

@@ -19,11 +19,12 @@ SHARE_OF_A_BOARD = 0.35  # of the corners that must be seen before a part of a b
 
 def prominent_grids(grids: list[CornerGrid]) -> list[CornerGrid]:
     """Return the grids that no other one dwarfs: a screen behind the board may show it again, small."""
-    weights = [_area(grid) * int(grid.known.sum()) for grid in grids]
+    weights = [area(grid) * int(grid.known.sum()) for grid in grids]
     return [grid for grid, weight in zip(grids, weights, strict=True) if weight > DWARFED * max(weights)]
 
 
-def _area(grid: CornerGrid) -> float:
+def area(grid: CornerGrid) -> float:
+    """Return the area, px², that a grid's corners span."""
     if not grid.points.size:
         return 0.0
     return float(cv2.contourArea(cv2.convexHull(grid.points[grid.known].astype(np.float32))))
@@ -40,6 +41,12 @@ def is_whole(grid: CornerGrid, target: Chessboard) -> bool:
     """Whether a grid of whole lines is the target, each corner of it."""
     shape = tuple(sorted(grid.points.shape[:2]))
     return shape == tuple(sorted((target.columns, target.rows))) and bool(grid.known.all())
+
+
+def nearest_whole(grids: list[CornerGrid], target: Chessboard) -> CornerGrid | None:
+    """Return the grid that is the whole target, of several the largest in the picture."""
+    whole = [grid for grid in grids if is_whole(grid, target)]
+    return max(whole, key=area) if whole else None
 
 
 def order_corners(grid: CornerGrid, target: Chessboard) -> tuple[Array, bool]:

@@ -57,7 +57,7 @@ def link_corners(corners: Corners) -> NDArray[np.int64]:
     weak, strong = np.sort(corners.contrast[np.stack([rows, ends])], axis=0)
     good = (link[ends, back[rows, slots]] == rows) & (weak > LIKE_CONTRAST * strong)
     link[rows[~good], slots[~good]] = -1
-    return _without_misfits(corners, link, back)
+    return _without_bridges(_without_misfits(corners, link, back), back)
 
 
 def _without_misfits(corners: Corners, link: NDArray[np.int64], back: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -69,6 +69,20 @@ def _without_misfits(corners: Corners, link: NDArray[np.int64], back: NDArray[np
     pruned = link.copy()
     pruned[link[rows, slots], back[rows, slots]] = -1
     pruned[rows, slots] = -1
+    return pruned
+
+
+def _without_bridges(link: NDArray[np.int64], back: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Cut the links that are a side of no square: where two boards meet, a chance one would make them one."""
+    rows, slots = np.nonzero(link >= 0)
+    ends, looking_back = link[rows, slots], back[rows, slots]
+    side = np.zeros(len(rows), dtype=bool)
+    for turn in (1, -1):
+        beside, beyond = link[rows, (slots + turn) % 4], link[ends, (looking_back - turn) % 4]
+        closed = np.any(link[beside] == beyond[:, None], axis=1)
+        side |= (beside >= 0) & (beyond >= 0) & closed
+    pruned = link.copy()
+    pruned[rows[~side], slots[~side]] = -1
     return pruned
 
 
@@ -100,10 +114,11 @@ def _nearest_along_slots(
     return link, back
 
 
-def number_corners(corners: Corners, link: NDArray[np.int64]) -> list[CornerGrid]:
+def number_corners(corners: Corners, link: NDArray[np.int64], enough: int | None = None) -> list[CornerGrid]:
     """Return the grids of linked corners, those with the most contrast in all first.
 
     Inside a board the middles of its squares can make a second, faint grid; counting corners would not tell.
+    enough: corners beyond which more do not count, so that no perforated plate comes before a board.
     """
     neighbours: list[list[int]] = link.tolist()
     seen: set[int] = set()
@@ -114,7 +129,9 @@ def number_corners(corners: Corners, link: NDArray[np.int64]) -> list[CornerGrid
         places = _walk(neighbours, seed)
         seen.update(places)
         if len(places) >= LEAST_CORNERS:
-            grids.append((float(corners.contrast[list(places)].sum()), _as_grid(corners, places)))
+            counted = len(places) if enough is None else min(len(places), enough)
+            contrast = counted * float(corners.contrast[list(places)].mean())
+            grids.append((contrast, _as_grid(corners, places)))
     return [grid for _, grid in sorted(grids, key=lambda pair: -pair[0])]
 
 

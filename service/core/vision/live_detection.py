@@ -13,12 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.board import is_larger, is_whole, order_corners
+from service.core.vision.corner_candidates import Corners
 from service.core.vision.corner_grid import CornerGrid, keep_squares, link_corners, number_corners
 from service.core.vision.detection import check_grey_image
 from service.core.vision.grid_growth import grow_grid
+from service.core.vision.live_choice import choose_grid, is_sure_and_larger, may_be_a_board
 from service.core.vision.live_corners import LiveWorkspace, find_live_corners, refine_on_pixels, smooth_frame
 from service.core.vision.live_look import measure_look
-from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
+from service.core.vision.outer_lines import whole_lines, without_rims
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage
 from service.core.vision.target import Chessboard
@@ -27,10 +29,10 @@ from service.core.vision.transforms import Array
 __all__ = ["BoardKind", "LiveDetection", "LiveWorkspace", "detect_live"]
 
 LIVE_SCALE = 2  # full-size pixels per pixel in which a live frame is looked at
-GRIDS = 2  # linked grids that are looked into, the one with most contrast first
+GRIDS = 3  # linked grids that are looked into, the one with most contrast first
+SHARE_OF_A_RIVAL = 0.6  # of the target's corners that a second board must show before it is grown
 ROUNDS = 1  # of growth, by a line on each side
 DISC_PX = 2  # of the last saddle fit
-NO_GRID = CornerGrid(np.zeros((0, 0, 2)), 0)
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
 
 BoardKind = Literal["present", "partial", "absent", "wrong"]
@@ -70,10 +72,13 @@ def detect_live(
     workspace = LiveWorkspace() if workspace is None else workspace
     half = image if scale == LIVE_SCALE else halve(image)
     blurred = smooth_frame(half, workspace)
-    grid = _find_grid(blurred, target, workspace)
+    found = find_live_corners(blurred, workspace)
+    grid = choose_grid(_grow_grids(blurred, found, target), target)
     seen = int(grid.known.sum())
     if not is_whole(grid, target):
-        return LiveDetection(_kind_of_rest(grid, seen, target), None, seen, None, float(cv2.mean(half)[0]))
+        likely = seen >= PARTIAL_CORNERS and may_be_a_board(half, grid, len(found), target)
+        kind: BoardKind = _kind_of_part(grid, target) if likely else "absent"
+        return LiveDetection(kind, None, seen, None, float(cv2.mean(half)[0]))
     corners, dark_first = order_corners(grid, target)
     look = measure_look(half, corners, dark_first)
     refined, _ = refine_saddles(blurred, corners.reshape(-1, 2), np.full(seen, DISC_PX), iterations=2)
@@ -95,22 +100,17 @@ def halve(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.asarray(half, dtype=np.uint8)
 
 
-def _find_grid(blurred: FloatImage, target: Chessboard, workspace: LiveWorkspace) -> CornerGrid:
-    """Return the grid that is most likely the target, in half-size px; an empty one where there is none."""
-    corners = find_live_corners(blurred, workspace)
-    best = NO_GRID
-    for grid in number_corners(corners, link_corners(corners))[:GRIDS]:
-        grown = grow_grid(blurred, keep_squares(grid), ROUNDS, refine_on_pixels)
-        lines = whole_lines(keep_squares(grown))
-        if is_larger(lines, target):
-            lines = without_rims(blurred, lines)
-        if is_whole(lines, target):
-            return lines
-        best = max(best, lines, key=lambda grid: int(grid.known.sum()))
-    return best
+def _grow_grids(blurred: FloatImage, corners: Corners, target: Chessboard) -> list[CornerGrid]:
+    """Return the most likely grids with their gaps filled, in half-size px, a bounded number of them."""
+    needed = target.columns * target.rows
+    grown: list[CornerGrid] = []
+    for grid in number_corners(corners, link_corners(corners), enough=needed)[:GRIDS]:
+        if any(is_whole(other, target) for other in grown) and grid.known.sum() < SHARE_OF_A_RIVAL * needed:
+            continue
+        lines = whole_lines(keep_squares(grow_grid(blurred, keep_squares(grid), ROUNDS, refine_on_pixels)))
+        grown.append(without_rims(blurred, lines) if is_larger(lines, target) else lines)
+    return grown
 
 
-def _kind_of_rest(grid: CornerGrid, seen: int, target: Chessboard) -> BoardKind:
-    if is_larger(whole_lines(grid, SHARE_OF_A_SURE_LINE), target):
-        return "wrong"
-    return "partial" if seen >= PARTIAL_CORNERS else "absent"
+def _kind_of_part(grid: CornerGrid, target: Chessboard) -> BoardKind:
+    return "wrong" if is_sure_and_larger(grid, target) else "partial"
