@@ -27,7 +27,7 @@ from service.api.ws.drivers import Pace
 from service.api.ws.guidance import Guidance
 from service.ports import Clock, FrameReader, FrameSourceMaker
 from service.settings import Settings
-from service.simulator.virtual_station import source_of_serial
+from service.simulator.virtual_station import held_source_of_serial, source_of_serial
 from service.storage.database import Database
 from service.storage.migration import check_at_head, upgrade
 from service.storage.words import FrameOrigin
@@ -131,7 +131,14 @@ def create_guidance(settings: Settings, services: Services, make_source: FrameSo
     speed = settings.virtual_speed
     # Whoever is in a hurry sees fewer frames of the same movement.
     pace = Pace(speed=speed) if speed <= 1 else Pace(frames_per_s=HURRIED_FRAMES_PER_S, speed=speed)
-    return Guidance(plant, Desks(plant), make_source, create_camera_opener(settings), pace)
+    return Guidance(
+        plant=plant,
+        desks=Desks(plant),
+        make_source=make_source,
+        make_held_source=held_source_of_serial,
+        open_camera=create_camera_opener(settings),
+        pace=pace,
+    )
 
 
 def create_camera_opener(settings: Settings) -> CameraOpener:

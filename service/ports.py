@@ -136,6 +136,28 @@ FrameSourceMaker = Callable[[Intrinsics, Chessboard, str], FrameSource]
 
 
 @dataclass(frozen=True)
+class BoardMove:
+    """How a person moves a virtual board, in the camera's directions, from where it is.
+
+    right_px, down_px: of its centre in the raw image. closer_share: > -1; its distance is divided by 1 + it.
+    Angles as in `core.guidance.comparison`: tilt > 0 brings the top edge to the camera, turn > 0 takes the
+    left edge away, roll > 0 is clockwise.
+    """
+
+    right_px: float = 0.0
+    down_px: float = 0.0
+    closer_share: float = 0.0
+    tilt_rad: float = 0.0
+    turn_rad: float = 0.0
+    roll_rad: float = 0.0
+
+
+HeldSourceMaker = Callable[[Intrinsics, Chessboard, str, Callable[[], BoardMove | None]], FrameSource]
+"""As FrameSourceMaker, of a board that a person moves; the last argument returns the moves since the last
+call."""
+
+
+@dataclass(frozen=True)
 class Grabbed:
     """A picture as a camera gave it: grey pixels (h, w), or the bytes of an image file that holds them.
 

@@ -51,6 +51,7 @@ def _demonstrate(service: RunningService, data_dir: Path, once: bool, seed: int)
     if not once:
         print(f"\nthe runs       {service.url}/#key={service.key}")
         print(f"the kiosk      {service.url}/kiosk?station=virtual-{PAPER_SKUS[0]['code']}#key={service.key}")
+        print(f"try it by hand {service.url}/kiosk?station=virtual#key={service.key}")
         print(f"the API's docs {service.url}/api/docs")
         print("Ctrl-C ends the demo", flush=True)
         service.process.wait()
@@ -76,6 +77,7 @@ def _one_vehicle(customer: Customer, url: str, number: int, seed: int) -> bool:
 def _guided_vehicle(customer: Customer, service: RunningService, seed: int) -> bool:
     for sku in PAPER_SKUS:
         customer.add_virtual_station(f"virtual-{sku['code']}", f"Virtual station, {sku['name']}")
+    customer.add_virtual_station("virtual", "Virtual station, by mouse", "virtual:mouse")
     sku = PAPER_SKUS[0]
     serial = f"GUIDED-{sku['code'].upper()}-{seed:04d}"
     print(f"{sku['name']}, vehicle {serial}, guided at a virtual station by a hand that reads only the hints")

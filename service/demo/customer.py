@@ -44,9 +44,9 @@ class Customer:
         self.ask("POST", "/skus", json=document)
         self.ask("POST", f"/skus/{document['code']}/revisions/1/publish")
 
-    def add_virtual_station(self, code: str, name: str) -> None:
-        """Register a station whose camera and hand are simulated."""
-        self.ask("POST", "/stations", json={"code": code, "name": name, "source": "virtual"})
+    def add_virtual_station(self, code: str, name: str, source: str = "virtual") -> None:
+        """Register a station whose camera is simulated, and its hand too unless the source is another."""
+        self.ask("POST", "/stations", json={"code": code, "name": name, "source": source})
 
     def plan_poses(self, code: str, progress: Callable[[float], None]) -> Json:
         """Let the service plan the poses of a SKU, publish the set and return it."""

@@ -13,11 +13,17 @@ from service.core.errors import SourceRefused
 from service.storage.words import FrameOrigin
 
 MASK = "***"
+HELD = "virtual:mouse"  # a virtual camera whose board the person at the kiosk moves
 MOST_CHARACTERS = 500
 KINDS = (
-    "`browser`, `virtual`, `rtsp://HOST/…`, `http://HOST/…` or `https://HOST/…` (MJPEG), "
+    "`browser`, `virtual`, `virtual:mouse`, `rtsp://HOST/…`, `http://HOST/…` or `https://HOST/…` (MJPEG), "
     "`v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME`"
 )
+PLAIN_SOURCES: dict[str, FrameOrigin] = {
+    FrameOrigin.BROWSER: FrameOrigin.BROWSER,
+    FrameOrigin.VIRTUAL: FrameOrigin.VIRTUAL,
+    HELD: FrameOrigin.VIRTUAL,
+}
 ORIGINS = {
     "rtsp": FrameOrigin.RTSP,
     "http": FrameOrigin.MJPEG,
@@ -31,8 +37,8 @@ DEVICE = re.compile(r"/dev/(video\d{1,3}|v4l/by-(id|path)/[\w.:+-]+)|[\w.:+-]+",
 
 def origin_of(source: str) -> FrameOrigin:
     """Return the kind of an accepted source."""
-    if source in {FrameOrigin.BROWSER, FrameOrigin.VIRTUAL}:
-        return FrameOrigin(source)
+    if source in PLAIN_SOURCES:
+        return PLAIN_SOURCES[source]
     return ORIGINS[source.partition(":")[0]]
 
 
@@ -41,7 +47,7 @@ def check_source(source: str, *, files: bool) -> str:
 
     files: whether there is a directory for `file:` sources.
     """
-    if source in {FrameOrigin.BROWSER, FrameOrigin.VIRTUAL}:
+    if source in PLAIN_SOURCES:
         return source
     scheme, colon, rest = source.partition(":")
     origin = ORIGINS.get(scheme) if colon else None

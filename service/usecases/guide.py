@@ -26,17 +26,20 @@ from service.core.guidance.actions import (
     Effect,
     Frame,
     ManualCapture,
+    PoseNotReached,
     Retake,
     RunComplete,
     SetAutomatic,
+    TakeAnother,
     Undo,
 )
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import ShownHint
-from service.core.guidance.problems import FrameMissing, PoseNotMatched, RevisionRetired
+from service.core.guidance.problems import FrameMissing, RevisionRetired
 from service.core.guidance.session import GuidanceSettings, start_session, step
 from service.core.guidance.session_view import view
 from service.core.vision.calibration import calibrate_intrinsics
+from service.core.vision.transforms import Pose
 from service.core.vision.view_stack import View
 from service.ports import BlobStore, Clock, LiveFrame
 from service.storage.database import Database
@@ -45,6 +48,8 @@ from service.usecases.captures import add_capture, withdraw_capture
 from service.usecases.finish import finish_run
 from service.usecases.guide_camera import view_camera
 from service.usecases.guide_frames import Eye, Pixels, to_png
+from service.usecases.guide_next_pose import Postponed, choose_another, record_postponed
+from service.usecases.guide_refusals import refusal_of
 from service.usecases.guide_runs import GuidedRun, Wish, capture_of_pose, load_guided_run, take_run
 from service.usecases.guide_views import (
     AcceptedView,
@@ -87,7 +92,8 @@ class GuidedSession:
         self.is_over = False
         self._plant, self._who = plant, who
         self._settings = _settings(run)
-        self._state = start_session(run.poses, run.captured)
+        self._state = start_session(run.poses, run.captured, postponed=run.postponed)
+        self._hand: Pose | None = None
         self._eye = Eye(self._settings)
         self._wanted: CaptureFrame | None = None
         self._accuracy = self._measure_accuracy()
@@ -117,19 +123,20 @@ class GuidedSession:
 
     def see(self, frame: LiveFrame) -> list[Told]:
         """Judge a live frame; raises WrongImageSize."""
-        told = self._apply(Frame(self._eye.observe(frame)))
+        observation = self._eye.observe(frame)
+        self._hand = observation.pose or self._hand
+        told = self._apply(Frame(observation))
         return [replace(self._show_state(), camera=view_camera(frame)), *told]
 
-    def capture(self) -> list[Told]:
-        """Ask for the picture that is on the screen."""
-        told = self._apply(ManualCapture(0.0 if self._state.last is None else self._state.last.at_s))
+    def capture(self, *, is_forced: bool = False) -> list[Told]:
+        """Ask for the picture that is on the screen; is_forced: though it does not meet the checks.
+
+        Who may force is for the caller to know.
+        """
+        at_s = 0.0 if self._state.last is None else self._state.last.at_s
+        told = self._apply(ManualCapture(at_s, is_forced))
         if not told and self._state.refused and self._state.pending is None:
-            error = PoseNotMatched(
-                "The board is not where the yellow outline wants it. Follow the instruction, then capture "
-                "again.",
-                reason=self._state.refused,
-            )
-            return [RefusedView(self._state.current, error)]
+            return [RefusedView(self._state.current, refusal_of(self._state))]
         return told
 
     def keep(self, sequence: int, image: Pixels, **facts: Fact) -> list[Told]:
@@ -143,7 +150,7 @@ class GuidedSession:
         self._wanted = None
         try:
             self._eye.check_same(sequence, image)
-            accepted = self._store(wanted.pose_index, image, facts)
+            accepted = self._store(wanted.pose_index, image, {**facts, **_facts_of(wanted)})
         except (RunAborted, RunAlreadyFinished) as error:
             return self._ended_elsewhere(error)
         except PoseTaken as error:
@@ -198,11 +205,22 @@ class GuidedSession:
             case CaptureFrame(_, sequence):
                 self._wanted = effect
                 return [WantedFrame(sequence)]
+            case PoseNotReached(pose_index, tried_s):
+                self._offer_another(pose_index, tried_s)
             case RunComplete():
                 return self._finish()
             case DiscardCapture(pose_index):
                 self._withdraw(pose_index)
         return []
+
+    def _offer_another(self, pose_index: int, tried_s: float) -> None:
+        another = choose_another(self.run.revision, self._state, self._hand)
+        if another is None:
+            return
+        with self._plant.database.write() as session:
+            postponed = Postponed(pose_index, another, tried_s)
+            record_postponed(session, self.run.id, postponed, self._who, self._plant.clock.now())
+        self._apply(TakeAnother(another))
 
     def _store(self, pose_index: int, image: Pixels, facts: Mapping[str, Fact]) -> AcceptedView:
         plant = self._plant
@@ -308,6 +326,12 @@ def resume_session(plant: Plant, run_id: UUID, who: str) -> GuidedSession:
     with plant.database.read() as session:
         run = load_guided_run(session, run_id)
     return GuidedSession(plant, run, who)
+
+
+def _facts_of(wanted: CaptureFrame) -> dict[str, Fact]:
+    """Return how a capture came about, for the audit trail."""
+    trigger = "manual" if wanted.is_manual else "automatic"
+    return {"trigger": trigger} | ({"overridden": list(wanted.overridden)} if wanted.overridden else {})
 
 
 def _settings(run: GuidedRun) -> GuidanceSettings:

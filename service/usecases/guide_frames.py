@@ -69,6 +69,7 @@ class Eye:
             edge_width_px=seen.edge_width_px,
             brightness=seen.brightness,
             sequence=frame.sequence,
+            glare_share=seen.glare_share,
         )
 
     def check_same(self, sequence: int, full: Pixels) -> None:

@@ -18,7 +18,8 @@ from service.core.vision.transforms import Pose
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow, StationRow
 from service.storage.words import FrameOrigin, Language, Publication
 from service.usecases.audit import record
-from service.usecases.frame_address import origin_of
+from service.usecases.frame_address import HELD, origin_of
+from service.usecases.guide_next_pose import read_postponed
 from service.usecases.observation import pose_from_json
 from service.usecases.run_filter import RunFilter
 from service.usecases.runs import Order, get_run, open_run
@@ -45,7 +46,8 @@ class Wish:
 class GuidedRun:
     """A run as guidance needs it.
 
-    captured: pose indices that have a capture, in the order they were taken. promised: sd by parameter that
+    captured: pose indices that have a capture, in the order they were taken. postponed: those that come after
+    all others, in that order. promised: sd by parameter that
     the pose set was planned to reach, None for an imported one. is_retired: its revision was replaced since.
     """
 
@@ -57,6 +59,7 @@ class GuidedRun:
     revision: Revision
     poses: tuple[Pose, ...]
     captured: tuple[int, ...]
+    postponed: tuple[int, ...]
     promised: Mapping[str, float] | None
     is_retired: bool
 
@@ -73,6 +76,11 @@ class StationView:
     language: Language | None
     run_id: UUID | None
     skus: list[str]
+
+    @property
+    def moves_board(self) -> bool:
+        """Whether its board is virtual and moved by whoever is at the kiosk."""
+        return self.source == HELD
 
 
 def read_station(session: Session, code: str) -> StationView:
@@ -142,6 +150,7 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
         revision=SkuDocument.model_validate(revision.document).to_revision(),
         poses=tuple(pose_from_json(pose) for pose in pose_set.poses),
         captured=tuple(index for index in session.scalars(query) if index is not None),
+        postponed=read_postponed(session, run_id),
         promised=pose_set.prediction.get("sd"),
         is_retired=revision.state is Publication.RETIRED,
     )

@@ -171,6 +171,9 @@ class StateView:
     automatic: bool
     is_capturing: bool
     accuracy: AccuracyView | None
+    instead_of: int | None
+    tried_s: float
+    absent_s: float
     camera: CameraView | None = None
     round_trip_ms: float | None = None
 
@@ -246,6 +249,9 @@ def view_state(
         automatic=shown.automatic,
         is_capturing=shown.is_storing,
         accuracy=accuracy,
+        instead_of=shown.instead_of,
+        tried_s=round(shown.tried_s, 1),
+        absent_s=round(shown.absent_s, 1),
     )
 
 

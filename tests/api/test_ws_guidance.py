@@ -272,3 +272,19 @@ def kiosk_type(text: str) -> str:
 def test_every_problem_of_the_socket_has_its_page(station: Plant) -> None:
     for kind in ServiceError.__subclasses__():
         assert station.client.get(f"/problems/{kind.code}").status_code == 200
+
+
+@pytest.mark.parametrize(("role", "may"), [(Role.OPERATOR, False), (Role.ENGINEER, True)])
+def test_only_an_engineer_overrides_the_checks_of_a_capture(station: Plant, role: Role, may: bool) -> None:
+    with connected(station, role=role) as kiosk:
+        assert kiosk.told[-1]["may_override"] is may
+        kiosk.say("open_run", serial="VIN-1", sku="tiny")
+        kiosk.until("run")
+        kiosk.say("set_automatic", automatic=False)
+        kiosk.say("retake", pose_index=0)
+        kiosk.until(lambda m: m["type"] == "state" and not m["automatic"] and m["board"] == "present")
+        kiosk.say("capture", override=True)
+        answer = kiosk.until(lambda m: m["type"] in {"capture_accepted", "problem"})
+
+    assert answer["type"] == ("capture_accepted" if may else "problem")
+    assert may or answer["code"] == "role-missing"

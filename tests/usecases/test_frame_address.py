@@ -9,6 +9,7 @@ from service.usecases.frame_address import MASK, check_source, mask_source, orig
 ACCEPTED = {
     "browser": FrameOrigin.BROWSER,
     "virtual": FrameOrigin.VIRTUAL,
+    "virtual:mouse": FrameOrigin.VIRTUAL,
     "rtsp://camera-17/stream1": FrameOrigin.RTSP,
     "rtsp://joe:s3cret@10.0.0.7:8554/cam?channel=1&token=s3cret": FrameOrigin.RTSP,
     "http://[fd00::7]:8080/video.mjpg": FrameOrigin.MJPEG,

@@ -23,7 +23,8 @@ Source = Annotated[
     Field(
         max_length=MOST_CHARACTERS,
         description="Where live frames come from: the kiosk's own camera (`browser`), the simulator "
-        "(`virtual`), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), "
+        "(`virtual`; `virtual:mouse`, whose board is moved at the kiosk), or a camera that the service "
+        "reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), "
         "`v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.",
     ),
 ]

@@ -13,7 +13,7 @@ from anyio import to_thread
 
 from service.api.ws.desk import Desk
 from service.core.guidance.problems import SourceStalled
-from service.ports import FrameSourceMaker, LiveFrame
+from service.ports import BoardMove, FrameSourceMaker, HeldSourceMaker, LiveFrame
 from service.usecases.guide_camera import Camera
 from service.usecases.guide_frames import RawFrame
 
@@ -21,6 +21,8 @@ STALLED_S = 1.5  # with the time between two looks, it is told within 2 s
 FULL_FRAME_S = 3.0
 WATCH_S = 0.25
 FRAME_WAIT_S = 0.25
+HELD_FRAME_S = 0.04  # between two frames of a board that a person moves, where the machine is fast enough
+LONGEST_STEP_S = 0.2  # after a longer pause, time goes on as if there had been none
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,23 @@ async def drive_virtual(desk: Desk, make: FrameSourceMaker, pace: Pace) -> None:
             due = monotonic() + pace.frame_s / pace.speed
             await desk.look(partial(source.next_frame, session.hints, pace.frame_s))
             await asyncio.sleep(max(0.0, due - monotonic()))
+
+
+async def drive_held(desk: Desk, make: HeldSourceMaker, take_move: Callable[[], BoardMove | None]) -> None:
+    """Draw a board that a person moves, in real time and as often as it can be shown, until cancelled."""
+    while True:
+        session = await desk.guided()
+        revision = session.run.revision
+        source = await to_thread.run_sync(
+            make, revision.intrinsics, revision.target, session.run.serial, take_move
+        )
+        desk.take_source(session, source)
+        before_s = monotonic() - HELD_FRAME_S
+        while desk.session is session and not session.is_over:
+            now_s = monotonic()
+            step_s, before_s = min(now_s - before_s, LONGEST_STEP_S), now_s
+            await desk.look(partial(source.next_frame, session.hints, step_s))
+            await asyncio.sleep(max(0.0, now_s + HELD_FRAME_S - monotonic()))
 
 
 async def drive_camera(desk: Desk, open_camera: Callable[[tuple[int, int]], Camera]) -> None:

@@ -14,20 +14,37 @@ from typing import Any
 from anyio import create_task_group, to_thread
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 
-from service.api.auth import Guides, SocketRoles, check_role
+from service.api.auth import ROLES_FROM, Guides, SocketRoles, check_role
 from service.api.ws import protocol
+from service.api.ws.board_moves import MoveBoard
 from service.api.ws.desk import Desk, Desks
-from service.api.ws.drivers import Intake, Pace, drive_browser, drive_camera, drive_virtual, watch
+from service.api.ws.drivers import (
+    Intake,
+    Pace,
+    drive_browser,
+    drive_camera,
+    drive_held,
+    drive_virtual,
+    watch,
+)
 from service.api.ws.incoming import FarewellError, read_frame, read_message, receive, to_text
 from service.api.ws.link import Link, TooSlowError
 from service.api.ws.messages import message_of
-from service.core.errors import BadRequest, NotAllowed, NotAuthenticated, ServiceError, Unavailable
+from service.core.errors import (
+    BadRequest,
+    NotAllowed,
+    NotAuthenticated,
+    ServiceError,
+    StateForbids,
+    Unavailable,
+)
 from service.log import logged_with
-from service.ports import FrameSourceMaker
-from service.storage.words import FrameOrigin
+from service.ports import FrameSourceMaker, HeldSourceMaker
+from service.storage.words import FrameOrigin, Role
 from service.usecases.access import identify
 from service.usecases.guide import Plant
 from service.usecases.guide_camera import CameraOpener
+from service.usecases.guide_moves import BoardMoves
 from service.usecases.guide_runs import StationView, Wish, read_station
 
 HELLO_S = 5.0
@@ -45,6 +62,7 @@ class Guidance:
     plant: Plant
     desks: Desks
     make_source: FrameSourceMaker
+    make_held_source: HeldSourceMaker
     open_camera: CameraOpener
     pace: Pace
 
@@ -56,7 +74,7 @@ class Guidance:
 
 @dataclass(frozen=True)
 class Visit:
-    """A client that was let in: where to, and what its frames wait in."""
+    """A client that was let in: where to, and what its frames and its board's moves wait in."""
 
     guidance: Guidance
     socket: WebSocket
@@ -64,6 +82,7 @@ class Visit:
     desk: Desk
     link: Link
     intake: Intake
+    moves: BoardMoves
 
     @property
     def is_kiosk(self) -> bool:
@@ -111,9 +130,8 @@ async def _welcome(socket: WebSocket, guidance: Guidance, code: str, roles: Sock
     caller = await to_thread.run_sync(identify, plant.database, message.key, plant.clock.now())
     check_role(caller, roles.kiosk if message.role == "kiosk" else roles.monitor)
     station = await to_thread.run_sync(_read_station, plant, code)
-    return Visit(
-        guidance, socket, station, guidance.desks.of(code), Link(socket, message.role, caller), Intake()
-    )
+    link = Link(socket, message.role, caller)
+    return Visit(guidance, socket, station, guidance.desks.of(code), link, Intake(), BoardMoves())
 
 
 def _read_station(plant: Plant, code: str) -> StationView:
@@ -135,6 +153,8 @@ async def _serve(visit: Visit) -> None:
             role=visit.link.role,
             run_id=visit.desk.session.run.id if visit.desk.session else station.run_id,
             skus=station.skus,
+            may_override=visit.is_kiosk and visit.link.caller.role in ROLES_FROM[Role.ENGINEER],
+            moves_board=visit.is_kiosk and station.moves_board,
         )
     )
     await _tell_problems(visit, visit.desk.begin(visit.link, station))
@@ -147,6 +167,8 @@ async def _serve(visit: Visit) -> None:
 def _drive(visit: Visit) -> Coroutine[Any, Any, None]:
     """Return what brings the frames of the station's source."""
     guidance, station = visit.guidance, visit.station
+    if station.moves_board:
+        return drive_held(visit.desk, guidance.make_held_source, visit.moves.take)
     if station.origin is FrameOrigin.VIRTUAL:
         return drive_virtual(visit.desk, guidance.make_source, guidance.pace)
     if station.origin is FrameOrigin.BROWSER:
@@ -195,10 +217,24 @@ async def _obey(visit: Visit, text: str) -> None:
             await visit.desk.open_run(Wish(serial, sku, purpose), visit.link.caller.name)
         case protocol.NextVehicle():
             await visit.desk.next_vehicle()
+        case protocol.Capture(override=True):
+            check_role(visit.link.caller, Role.ENGINEER)
+            await visit.desk.ask(lambda session: session.capture(is_forced=True))
+        case MoveBoard():
+            _move_board(visit, message)
         case protocol.Hello():
             raise BadRequest("`hello` is said once.")
         case _:
             await visit.desk.ask(QUESTIONS[type(message)](message))
+
+
+def _move_board(visit: Visit, message: MoveBoard) -> None:
+    if not visit.station.moves_board:
+        raise StateForbids(
+            "The board of this station is not moved from a screen. Use a station with the source "
+            "'virtual:mouse'."
+        )
+    visit.moves.put(message.to_move())
 
 
 async def _tell_problems(visit: Visit, work: Coroutine[Any, Any, None]) -> None:

@@ -12,6 +12,7 @@ from uuid import UUID
 from pydantic import ConfigDict, Field
 
 from service.api.shapes import Answer, Request
+from service.api.ws.board_moves import MoveBoard
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
 from service.storage.words import FrameOrigin, Language
@@ -74,9 +75,13 @@ class OpenRun(Request):
 
 
 class Capture(Request):
-    """Take the picture now, whatever the match."""
+    """Take the picture now, by the same checks as by itself: pose, stillness, sharpness, light, target."""
 
     type: Literal["capture"]
+    override: bool = Field(
+        default=False,
+        description="Take it though the checks are not met, recorded with what was not; engineers only.",
+    )
 
 
 class Undo(Request):
@@ -119,7 +124,7 @@ class Ack(Request):
 
 
 ClientMessage = Annotated[
-    Hello | OpenRun | Capture | Undo | Retake | Abort | NextVehicle | SetAutomatic | Ack,
+    Hello | OpenRun | Capture | Undo | Retake | Abort | NextVehicle | SetAutomatic | MoveBoard | Ack,
     Field(discriminator="type"),
 ]
 
@@ -210,6 +215,8 @@ class Welcome(Told):
     role: Literal["kiosk", "monitor"]
     run_id: UUID | None
     skus: list[str] = Field(description="Codes that a run can be opened for, newest first.")
+    may_override: bool = Field(description="Whether this client's captures may override the checks.")
+    moves_board: bool = Field(description="Whether this client moves a virtual board: `move_board`.")
 
 
 class CaptureAccepted(Told):
@@ -354,6 +361,14 @@ class State(Told):
     automatic: bool
     is_capturing: bool = Field(description="A frame was judged fit and is being stored.")
     accuracy: Accuracy | None
+    instead_of: int | None = Field(
+        default=None,
+        description="The pose that was not reached and comes again last; `pose_index` comes first.",
+    )
+    tried_s: float = Field(
+        default=0.0, description="How long this pose is tried with a board in the picture."
+    )
+    absent_s: float = Field(default=0.0, description="How long no board has been in the picture; 0 with one.")
     camera: CameraTold | None = Field(default=None, description="Null where the service reads no camera.")
     round_trip_ms: float | None = Field(
         default=None,

@@ -14,9 +14,10 @@ class Frame:
 
 @dataclass(frozen=True)
 class ManualCapture:
-    """The operator asked for a capture."""
+    """The operator asked for a capture; is_forced: whatever the checks say, by somebody who may."""
 
     at_s: float
+    is_forced: bool = False
 
 
 @dataclass(frozen=True)
@@ -53,18 +54,28 @@ class SetAutomatic:
     automatic: bool
 
 
-Action = Frame | ManualCapture | CaptureAccepted | CaptureRefused | Undo | Retake | SetAutomatic
+@dataclass(frozen=True)
+class TakeAnother:
+    """Ask for another open pose first; the present one comes again after all others."""
+
+    pose_index: int
+
+
+Action = Frame | ManualCapture | CaptureAccepted | CaptureRefused | Undo | Retake | SetAutomatic | TakeAnother
 
 
 @dataclass(frozen=True)
 class CaptureFrame:
     """Store the frame of this number, the very one that was judged, as the capture of a pose.
 
-    Answer with CaptureAccepted or CaptureRefused: until then nothing else is captured.
+    Answer with CaptureAccepted or CaptureRefused: until then nothing else is captured. is_manual: asked for
+    by hand; overridden: the checks that it did not meet, which was forced.
     """
 
     pose_index: int
     sequence: int
+    is_manual: bool = False
+    overridden: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,4 +90,12 @@ class RunComplete:
     """Every pose has its capture."""
 
 
-Effect = CaptureFrame | DiscardCapture | RunComplete
+@dataclass(frozen=True)
+class PoseNotReached:
+    """The operator tries a pose for long; another one may be asked for first, by TakeAnother."""
+
+    pose_index: int
+    tried_s: float
+
+
+Effect = CaptureFrame | DiscardCapture | RunComplete | PoseNotReached

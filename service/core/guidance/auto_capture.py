@@ -4,7 +4,7 @@ Pure: times are values in seconds. Not here: whether the pose matches (`comparis
 (`session`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -18,7 +18,8 @@ class CaptureLimits:
 
     dwell_s: how long every frame must meet it. still_px: mean corner motion between two frames, at most.
     longest_gap_s: frames that are farther apart say nothing about stillness. sharp_px: widest 10–90 % edge.
-    darkest, brightest: bounds of the grey level of the board's bright squares.
+    darkest, brightest: bounds of the grey level of the board's bright squares. glare_share: of these squares,
+    how much may be saturated.
     """
 
     dwell_s: float = 0.5
@@ -27,6 +28,7 @@ class CaptureLimits:
     sharp_px: float = 4.5
     darkest: float = 40.0
     brightest: float = 250.0
+    glare_share: float = 0.15
 
 
 class Obstacle(StrEnum):
@@ -37,36 +39,40 @@ class Obstacle(StrEnum):
     BLURRED = "blurred"
     TOO_DARK = "too-dark"
     TOO_BRIGHT = "too-bright"
+    GLARE = "glare"
 
 
 @dataclass(frozen=True)
 class Dwell:
-    """Frames that met everything, one after another: since when, until when, and the sharpest of them."""
+    """Frames that met everything, one after another: since when, until when, and the sharpest of them.
+
+    sequence, sharpest_s, edge_width_px: of the sharpest frame of the last dwell time.
+    """
 
     since_s: float
     until_s: float
     sequence: int
+    sharpest_s: float
     edge_width_px: float
 
 
-def find_obstacle(
+def find_obstacles(
     matched: bool, before: Observation | None, now: Observation, limits: CaptureLimits
-) -> Obstacle | None:
-    """Return the first thing that forbids to capture the present frame; None where nothing does.
+) -> tuple[Obstacle, ...]:
+    """Return what forbids to capture the present frame, the first thing to mend first; () where nothing does.
 
     before: the frame that was seen last; without one nothing is known to be still.
     """
-    if not matched:
-        return Obstacle.NOT_MATCHED
-    if now.brightness is not None and now.brightness < limits.darkest:
-        return Obstacle.TOO_DARK
-    if now.brightness is not None and now.brightness > limits.brightest:
-        return Obstacle.TOO_BRIGHT
-    if not is_still(before, now, limits):
-        return Obstacle.MOVING
-    if now.edge_width_px is not None and now.edge_width_px > limits.sharp_px:
-        return Obstacle.BLURRED
-    return None
+    width_px, brightness, glare = now.edge_width_px, now.brightness, now.glare_share
+    found = {
+        Obstacle.NOT_MATCHED: not matched,
+        Obstacle.TOO_DARK: brightness is not None and brightness < limits.darkest,
+        Obstacle.TOO_BRIGHT: brightness is not None and brightness > limits.brightest,
+        Obstacle.GLARE: glare is not None and glare > limits.glare_share,
+        Obstacle.MOVING: not is_still(before, now, limits),
+        Obstacle.BLURRED: width_px is not None and width_px > limits.sharp_px,
+    }
+    return tuple(obstacle for obstacle, stands in found.items() if stands)
 
 
 def is_still(before: Observation | None, now: Observation, limits: CaptureLimits) -> bool:
@@ -81,14 +87,18 @@ def is_still(before: Observation | None, now: Observation, limits: CaptureLimits
     return bool(motion.mean() <= limits.still_px)
 
 
-def extend_dwell(dwell: Dwell | None, now: Observation) -> Dwell:
-    """Return the dwell with one more good frame; the sharpest frame is kept, the latest of equals."""
+def extend_dwell(dwell: Dwell | None, now: Observation, limits: CaptureLimits) -> Dwell:
+    """Return the dwell with one more good frame; the sharpest frame is kept, the latest of equals.
+
+    One that is older than the dwell time gives way: a board may be held for long before a key is pressed, and
+    sources keep their frames for a moment only.
+    """
     width = float("inf") if now.edge_width_px is None else now.edge_width_px
-    if dwell is None:
-        return Dwell(now.at_s, now.at_s, now.sequence, width)
-    if width <= dwell.edge_width_px:
-        return Dwell(dwell.since_s, now.at_s, now.sequence, width)
-    return Dwell(dwell.since_s, now.at_s, dwell.sequence, dwell.edge_width_px)
+    since_s = now.at_s if dwell is None else dwell.since_s
+    is_old = dwell is not None and now.at_s - dwell.sharpest_s > limits.dwell_s
+    if dwell is None or is_old or width <= dwell.edge_width_px:
+        return Dwell(since_s, now.at_s, now.sequence, now.at_s, width)
+    return replace(dwell, until_s=now.at_s)
 
 
 def dwell_share(dwell: Dwell | None, limits: CaptureLimits) -> float:

@@ -13,8 +13,8 @@ class Observation:
     at_s: when the frame was taken, on a clock that only goes forward. kind: the whole declared board, a part
     of it, none, or another one. pose: `T_cam_board`; image_points: (n, 2) full-size px in the target's order;
     both None unless present. edge_width_px: 10–90 % width of its edges, full-size px; brightness: mean grey
-    level of its bright squares, 0…255; None where not measured. sequence: the frame's number; a capture asks
-    for the frame by it.
+    level of its bright squares, 0…255, without a board of the frame; glare_share: saturated share of the
+    bright squares; None where not measured. sequence: the frame's number; a capture asks for it by that.
     """
 
     at_s: float
@@ -25,3 +25,4 @@ class Observation:
     edge_width_px: float | None = None
     brightness: float | None = None
     sequence: int = 0
+    glare_share: float | None = None

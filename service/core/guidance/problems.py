@@ -31,6 +31,13 @@ class PoseNotMatched(Unprocessable):
     title = "The board is not in the wanted pose"
 
 
+class PictureUnfit(Unprocessable):
+    """A capture was asked for of a picture that would not do: moving, blurred, badly lit, no whole board."""
+
+    code = "picture-unfit"
+    title = "The picture cannot be taken like this"
+
+
 class SourceStalled(Unavailable):
     """No frame has come from a station's camera for a while."""
 

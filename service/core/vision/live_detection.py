@@ -46,6 +46,7 @@ class LiveDetection:
     corners_seen: on the board or on the part of it.
     edge_width_px: 10–90 %, full-size px, a cheap estimate; None unless present.
     brightness: grey level of the bright squares of the board; without one, mean of the frame.
+    glare_share: saturated share of the bright squares; None unless present.
     """
 
     kind: BoardKind
@@ -53,6 +54,7 @@ class LiveDetection:
     corners_seen: int
     edge_width_px: float | None
     brightness: float
+    glare_share: float | None = None
 
 
 def detect_live(
@@ -76,7 +78,14 @@ def detect_live(
     look = measure_look(half, corners, dark_first)
     refined, _ = refine_saddles(blurred, corners.reshape(-1, 2), np.full(seen, DISC_PX), iterations=2)
     points = refined * LIVE_SCALE + 0.5 * (LIVE_SCALE - 1)
-    return LiveDetection("present", points, seen, look.edge_width_px * LIVE_SCALE, look.brightness)
+    return LiveDetection(
+        kind="present",
+        image_points=points,
+        corners_seen=seen,
+        edge_width_px=look.edge_width_px * LIVE_SCALE,
+        brightness=look.brightness,
+        glare_share=look.glare_share,
+    )
 
 
 def halve(image: NDArray[np.uint8]) -> NDArray[np.uint8]:

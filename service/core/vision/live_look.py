@@ -13,15 +13,21 @@ from service.core.vision.transforms import Array
 
 REACH = 0.4  # of the square on either side of an edge, where it is over
 SLOPE_TO_WIDTH = 1.022  # of a Gaussian edge: 10–90 % width, times its steepest slope, over its height
+SATURATED = 250.0  # grey level from which a pixel says no more
+SPOTS = (0.25, 0.5, 0.75)  # of a square, where glare is looked for
 OWN_WIDTH_PX = 1.38  # that a perfectly sharp edge seems to have, by pixels and by sampling between them
 
 
 @dataclass(frozen=True)
 class Look:
-    """edge_width_px: 10–90 % width of the edges; brightness: grey level of the bright squares."""
+    """edge_width_px: 10–90 % width of the edges; brightness: grey level of the bright squares.
+
+    glare_share: of spots in the bright squares, those that are saturated.
+    """
 
     edge_width_px: float
     brightness: float
+    glare_share: float
 
 
 def measure_look(image: NDArray[np.uint8], corners: Array, dark_first: bool) -> Look:
@@ -33,7 +39,23 @@ def measure_look(image: NDArray[np.uint8], corners: Array, dark_first: bool) -> 
     bright = (row + column) % 2 == dark_first
     widths = np.concatenate([_edge_widths(image, corners), _edge_widths(image, np.swapaxes(corners, 0, 1))])
     width_sq = float(np.median(widths)) ** 2 - OWN_WIDTH_PX**2
-    return Look(float(np.sqrt(max(width_sq, 0.0))), float(levels[bright].mean()))
+    return Look(
+        edge_width_px=float(np.sqrt(max(width_sq, 0.0))),
+        brightness=float(levels[bright].mean()),
+        glare_share=_glare_share(image, corners, bright),
+    )
+
+
+def _glare_share(image: NDArray[np.uint8], corners: Array, bright: NDArray[np.bool_]) -> float:
+    """Return the share of saturated spots in the bright squares (rows - 1, columns - 1)."""
+    squares = [
+        part[bright] for part in (corners[:-1, :-1], corners[:-1, 1:], corners[1:, :-1], corners[1:, 1:])
+    ]
+    across, down = (grid.reshape(-1, 1, 1) for grid in np.meshgrid(SPOTS, SPOTS))
+    top = squares[0] * (1.0 - across) + squares[1] * across
+    bottom = squares[2] * (1.0 - across) + squares[3] * across
+    spots = top * (1.0 - down) + bottom * down
+    return float(np.mean(sample_bilinear(image, spots[..., 0], spots[..., 1]) >= SATURATED))
 
 
 def _edge_widths(image: NDArray[np.uint8], corners: Array) -> Array:

@@ -180,7 +180,7 @@ def test_by_hand_only_a_matching_frame_is_captured_without_a_dwell() -> None:
     state, effects = play(state, held(POSES[0], 0.0, 40))
     assert effects == []
     asked, now = step(state, ManualCapture(2.0), SETTINGS)
-    assert now == (CaptureFrame(0, 195),)
+    assert now == (CaptureFrame(0, 195, is_manual=True),)
     assert step(asked, ManualCapture(2.1), SETTINGS)[1] == ()
     elsewhere, _ = play(state, held(POSES[2], 5.0, 2))
     refused, none = step(elsewhere, ManualCapture(5.2), SETTINGS)

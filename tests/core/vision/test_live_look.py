@@ -34,3 +34,15 @@ def test_a_board_without_contrast_has_a_finite_width() -> None:
     board = draw_board()
     flat = np.full((480, 640), 80, np.uint8)
     assert np.isfinite(measure_look(flat, board.corners.reshape(6, 9, 2), dark_first=True).edge_width_px)
+
+
+def test_glare_is_the_share_of_the_bright_squares_that_is_saturated() -> None:
+    board = draw_board(white=180.0)
+    corners = board.corners.reshape(6, 9, 2)
+    even = board.image()
+    spoilt = even.copy()
+    x = int(corners[:, 4, 0].mean())
+    spoilt[:, :x] = 255
+
+    assert measure_look(even, corners, dark_first=True).glare_share == 0.0
+    assert measure_look(spoilt, corners, dark_first=True).glare_share == pytest.approx(0.5, abs=0.15)

@@ -239,7 +239,7 @@ export interface NewStation {
   /** Board that stands there. */
   target_id?: string | null;
   /**
-   * Where live frames come from: the kiosk's own camera (`browser`), the simulator (`virtual`), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), `v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.
+   * Where live frames come from: the kiosk's own camera (`browser`), the simulator (`virtual`; `virtual:mouse`, whose board is moved at the kiosk), or a camera that the service reads: `rtsp://HOST/…`, `http(s)://HOST/…` (MJPEG), `v4l2:/dev/videoN`, `v4l2:SERIAL`, or `file:NAME` to replay a folder or video.
    */
   source?: string;
   /** In which language the kiosk starts; null: in its browser's. */

@@ -48,9 +48,11 @@ export interface CameraTold {
   waited_ms: number;
 }
 
-/** Take the picture now, whatever the match. */
+/** Take the picture now, by the same checks as by itself: pose, stillness, sharpness, light, target. */
 export interface Capture {
   type: "capture";
+  /** Take it though the checks are not met, recorded with what was not; engineers only. */
+  override?: boolean;
 }
 
 /** A capture is stored durably; only now the next pose is asked for. */
@@ -77,7 +79,7 @@ export interface CaptureRefused {
   facts: Record<string, unknown>;
 }
 
-export type ClientMessage = Hello | OpenRun | Capture | Undo | Retake | Abort | NextVehicle | SetAutomatic | Ack;
+export type ClientMessage = Hello | OpenRun | Capture | Undo | Retake | Abort | NextVehicle | SetAutomatic | MoveBoard | Ack;
 
 /** How the board must move in the raw image to reach the pose asked for. */
 export interface Difference {
@@ -157,6 +159,23 @@ export interface HintSaid {
 
 /** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
 export type Language = "en" | "de" | "zh";
+
+/**
+ * Move the virtual board of a station with the source `virtual:mouse`; moves add up until the next frame.
+ *
+ * Directions and angles are those of the raw image, as in `Difference`. What would take the board's centre
+ * out of the picture, or its face away from the camera, is not done.
+ */
+export interface MoveBoard {
+  type: "move_board";
+  right_px?: number;
+  down_px?: number;
+  /** Its distance is divided by 1 + this. */
+  closer_share?: number;
+  tilt_deg?: number;
+  turn_deg?: number;
+  roll_deg?: number;
+}
 
 /** Leave the run that has ended; the station is free for the next serial. */
 export interface NextVehicle {
@@ -282,6 +301,12 @@ export interface State {
   /** A frame was judged fit and is being stored. */
   is_capturing: boolean;
   accuracy: Accuracy | null;
+  /** The pose that was not reached and comes again last; `pose_index` comes first. */
+  instead_of: number | null;
+  /** How long this pose is tried with a board in the picture. */
+  tried_s: number;
+  /** How long no board has been in the picture; 0 with one. */
+  absent_s: number;
   /** Null where the service reads no camera. */
   camera: CameraTold | null;
   /** Of the newest picture that this client acknowledged, from sending it; null without one. */
@@ -323,4 +348,8 @@ export interface Welcome {
   run_id: string | null;
   /** Codes that a run can be opened for, newest first. */
   skus: string[];
+  /** Whether this client's captures may override the checks. */
+  may_override: boolean;
+  /** Whether this client moves a virtual board: `move_board`. */
+  moves_board: boolean;
 }

@@ -2,6 +2,7 @@
 import { type JSX } from "preact";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
+import { helpText } from "./help_text";
 import type { Kiosk } from "./kiosk";
 import { isFinishing, type KioskState, type Told } from "./kiosk_state";
 import { Marked } from "./marked";
@@ -15,7 +16,12 @@ export function Instruction({ kiosk }: { kiosk: Kiosk }): JSX.Element {
   if (state.problem !== null)
     return <Trouble told={state.problem} say={say} onRead={() => kiosk.readProblem()} />;
   if (isFinishing(state)) return <Note text={say.guide_finishing} isBusy />;
-  if (state.refused.capture !== null) return <Trouble told={state.refused.capture} say={say} isRefusal />;
+  const refused = state.refused.capture;
+  if (refused !== null) {
+    const canForce = state.welcome?.may_override === true && isForceable(refused.code);
+    const force = canForce ? { onForce: () => kiosk.captureAnyway() } : {};
+    return <Trouble told={refused} say={say} isRefusal {...force} />;
+  }
   if (state.live === null) return <Note text={say.guide_waiting} isBusy />;
   if (state.live.is_capturing) return <Hint kiosk={kiosk} state={state} say={say} codes={["hold"]} />;
   const codes = state.live.hints.map(({ code }) => hintOnDisplay(code, kiosk.mirrored.value));
@@ -48,7 +54,10 @@ function Hint({ kiosk, state, say, codes }: HintProps): JSX.Element {
         <p class="strip-main" role="status">
           <Marked text={hintText(code, say)} />
         </p>
-        <p class="strip-next">{detailOf(code, next, live.is_capturing, say)}</p>
+        <p class="strip-next">
+          {(live.is_capturing ? null : helpText(code, live, say)) ??
+            detailOf(code, next, live.is_capturing, say)}
+        </p>
       </div>
     </section>
   );
@@ -72,14 +81,20 @@ function Note({ text, isBusy = false }: { text: string; isBusy?: boolean }): JSX
   );
 }
 
+/** What the checks of a picture refuse; anything else is no matter of opinion. */
+function isForceable(code: string): boolean {
+  return code === "pose-not-matched" || code === "picture-unfit";
+}
+
 interface TroubleProps {
   told: Told;
   say: Words;
   isRefusal?: boolean;
   onRead?: () => void;
+  onForce?: () => void;
 }
 
-function Trouble({ told, say, isRefusal = false, onRead }: TroubleProps): JSX.Element {
+function Trouble({ told, say, isRefusal = false, onRead, onForce }: TroubleProps): JSX.Element {
   const { title, detail, isTranslated } = problemText(told, say);
   const lang = isTranslated ? {} : { lang: "en" };
   return (
@@ -97,6 +112,11 @@ function Trouble({ told, say, isRefusal = false, onRead }: TroubleProps): JSX.El
           {detail}
         </p>
       </div>
+      {onForce !== undefined && (
+        <button type="button" class="act" onClick={onForce}>
+          {say.help_override}
+        </button>
+      )}
       {onRead !== undefined && (
         <button type="button" class="act" onClick={onRead}>
           {say.problem_read}

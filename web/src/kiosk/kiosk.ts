@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import type { ClientMessage, Purpose, Run, ServerMessage, State, Welcome } from "../generated/protocol";
 import { Camera } from "./camera";
 import { unpack } from "./framed";
+import { bounded, joined, NO_MOVE, unmirrored, type Move } from "./hand_moves";
 import { FIRST_STATE, isLive, nextState, screenOf, type KioskEvent } from "./kiosk_state";
 import { isMirrored, rememberMirrored } from "./mirror";
 import { speakAt } from "../words/language";
@@ -54,6 +55,7 @@ export class Kiosk {
     full: (message) => this.socket.sendPicture(message),
     failed: (why) => this.tell({ code: `camera-${why}`, title: "", detail: "" }),
   });
+  private move: Move | null = null;
   private decoding = Promise.resolve();
   private heardAt = 0;
   private judgedAt = 0;
@@ -123,6 +125,11 @@ export class Kiosk {
     this.say({ type: "capture" });
   }
 
+  /** Takes the picture that the checks refuse; recorded, and for engineers only. */
+  captureAnyway(): void {
+    this.say({ type: "capture", override: true });
+  }
+
   undo(): void {
     this.say({ type: "undo" });
   }
@@ -141,6 +148,12 @@ export class Kiosk {
 
   setAutomatic(automatic: boolean): void {
     this.say({ type: "set_automatic", automatic });
+  }
+
+  /** Moves the virtual board, as the display shows it; what comes between two drawings is said at once. */
+  moveBoard(move: Partial<Move>): void {
+    if (this.move === null) requestAnimationFrame(() => this.sayMove());
+    this.move = joined(this.move ?? NO_MOVE, unmirrored(move, this.mirrored.value));
   }
 
   setMirrored(mirrored: boolean): void {
@@ -175,6 +188,11 @@ export class Kiosk {
 
   private say(message: ClientMessage): void {
     this.socket.say(message);
+  }
+
+  private sayMove(): void {
+    if (this.move !== null) this.say({ type: "move_board", ...bounded(this.move) });
+    this.move = null;
   }
 
   private refuseScan(open: string): void {

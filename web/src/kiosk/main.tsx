@@ -5,6 +5,7 @@ import "../look/notices.css";
 import "../look/kiosk.css";
 import "../look/kiosk_figures.css";
 import "../look/kiosk_guide.css";
+import "../look/kiosk_hand.css";
 import "../look/kiosk_pictograms.css";
 import "../look/kiosk_verdict.css";
 import "../look/kiosk_idle.css";

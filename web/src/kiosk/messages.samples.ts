@@ -34,6 +34,8 @@ export function welcome(more: Partial<Welcome>): Welcome {
     role: "kiosk",
     run_id: null,
     skus: ["lens1"],
+    may_override: false,
+    moves_board: false,
     ...more,
   };
 }
@@ -77,6 +79,9 @@ export function live(more: Partial<State>): State {
     automatic: true,
     is_capturing: false,
     accuracy: null,
+    instead_of: null,
+    tried_s: 0,
+    absent_s: 0,
     camera: null,
     round_trip_ms: null,
     ...more,

@@ -54,6 +54,17 @@ describe("a problem", () => {
     expect(said.isTranslated).toBe(true);
   });
 
+  it("of a picture says what it wants, in words without marks", () => {
+    const told = { code: "picture-unfit", title: "Title", detail: "Detail", facts: { hint: "hold-still" } };
+
+    expect(problemText(told, de)).toEqual({
+      title: de.told_picture_unfit,
+      detail: de.hint_hold_still.replaceAll("*", ""),
+      isTranslated: true,
+    });
+    expect(problemText({ ...told, facts: {} }, en).detail).toBe(en.told_picture_unfit_do);
+  });
+
   it("of an open run names the camera type to choose", () => {
     const told = { code: "other-sku-open", title: "Title", detail: "Detail", facts: { sku: "front" } };
 

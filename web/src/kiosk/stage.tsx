@@ -4,6 +4,7 @@ import { type JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import type { Size } from "../drawing/viewport";
 import { words } from "../words/language";
+import { BoardHand } from "./board_hand";
 import { Figures } from "./figures";
 import type { Kiosk } from "./kiosk";
 import { isLive } from "./kiosk_state";
@@ -36,6 +37,7 @@ export function Stage({ kiosk }: { kiosk: Kiosk }): JSX.Element {
   return (
     <div class={`stage ${isLive(kiosk.state.value) ? "" : "stage-lost"}`}>
       <canvas ref={canvas} role="img" aria-label={words.value.guide_picture} />
+      {kiosk.state.value.welcome?.moves_board === true && <BoardHand kiosk={kiosk} />}
       {kiosk.figures.value && <Figures kiosk={kiosk} />}
       {count > 0 && <div key={count} class="stage-flash" aria-hidden="true" />}
     </div>

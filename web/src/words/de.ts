@@ -1,11 +1,13 @@
 // Every text of the pages in German.
 import { deKiosk } from "./de_kiosk";
+import { deHelp } from "./de_help";
 import { dePractice } from "./de_practice";
 import { deReview } from "./de_review";
 import type { Words } from "./en";
 
 export const de: Words = {
   ...deKiosk,
+  ...deHelp,
   ...dePractice,
   ...deReview,
 
@@ -209,7 +211,7 @@ export const de: Words = {
   station_source_change: "Ändern",
   station_source_of: (code) => `Quelle von ${code}`,
   station_source_hint:
-    "browser, virtual, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN oder file:NAME. Sie gilt, sobald die Seite des Kiosks neu geladen ist.",
+    "browser, virtual, virtual:mouse, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN oder file:NAME. Sie gilt, sobald die Seite des Kiosks neu geladen ist.",
   station_source_save: "Speichern",
   station_source_cancel: "Verwerfen",
   source_browser: "Kamera des Kiosks",
@@ -274,6 +276,9 @@ export const de: Words = {
   provenance_sigma_px: "Eckenrauschen, px",
   provenance_objective: "Ziel",
   provenance_planner: "Planer",
+  provenance_weights: "Gewichte",
+  provenance_draws: "Kameras und Hände",
+  provenance_noise_source: "Rauschen je Pose aus",
   fact_mapping_short: "Abbildungsfehler",
   fact_norm: "Norm des Parameterfehlers",
   fact_norm_note: "das Maß der Vorlage",

@@ -164,6 +164,8 @@ export const deKiosk: KioskWords = {
   told_frame_missing_do: "Das Target noch einmal an seinem Platz halten.",
   told_frame_moved: "Das Target hat sich bewegt",
   told_frame_moved_do: "Bis zum Ton still halten.",
+  told_picture_unfit: "Das Bild taugt so nicht",
+  told_picture_unfit_do: "Das Target ganz, ruhig und gut beleuchtet halten, dann noch einmal aufnehmen.",
   told_pose_not_matched: "Das Target ist nicht an seinem Platz",
   told_pose_not_matched_do: "Erst in den gestrichelten Umriss bringen.",
   told_target_not_visible: "Das Target wurde nicht gefunden",

@@ -1,10 +1,12 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
 import { enKiosk } from "./en_kiosk";
+import { enHelp } from "./en_help";
 import { enPractice } from "./en_practice";
 import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
+  ...enHelp,
   ...enPractice,
   ...enReview,
 
@@ -207,7 +209,7 @@ export const en = {
   station_source_change: "Change",
   station_source_of: (code: string) => `Source of ${code}`,
   station_source_hint:
-    "browser, virtual, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN or file:NAME. It holds once the kiosk's page is loaded again.",
+    "browser, virtual, virtual:mouse, rtsp://…, http://… (MJPEG), v4l2:/dev/videoN or file:NAME. It holds once the kiosk's page is loaded again.",
   station_source_save: "Save",
   station_source_cancel: "Cancel",
   source_browser: "camera of the kiosk",
@@ -272,6 +274,9 @@ export const en = {
   provenance_sigma_px: "Corner noise, px",
   provenance_objective: "Objective",
   provenance_planner: "Planner",
+  provenance_weights: "Weights",
+  provenance_draws: "Cameras and hands",
+  provenance_noise_source: "Noise by pose from",
   fact_mapping_short: "Mapping error",
   fact_norm: "Norm of the parameters’ error",
   fact_norm_note: "the paper’s measure",

@@ -157,6 +157,8 @@ export const enKiosk = {
   told_frame_missing_do: "Hold the board in its place once more.",
   told_frame_moved: "The board moved",
   told_frame_moved_do: "Hold it still until the tone.",
+  told_picture_unfit: "The picture would not do",
+  told_picture_unfit_do: "Hold the board still, whole and well lit, then capture again.",
   told_pose_not_matched: "The board is not in its place",
   told_pose_not_matched_do: "Bring it into the dashed outline first.",
   told_target_not_visible: "The board was not found",

@@ -1,10 +1,12 @@
 // Every text of the pages in Chinese (simplified).
 import type { Words } from "./en";
+import { zhHelp } from "./zh_help";
 import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
 import { zhReview } from "./zh_review";
 
 export const zh: Words = {
+  ...zhHelp,
   ...zhKiosk,
   ...zhPractice,
   ...zhReview,
@@ -120,6 +122,7 @@ export const zh: Words = {
   gate_model: "模型",
   gate_score: "评分",
   gate_bias: "偏差",
+  gate_cross_check: "交叉检验",
   gate_identity: "身份",
   gate_cross_check: "交叉检验",
 
@@ -268,6 +271,9 @@ export const zh: Words = {
   provenance_sigma_px: "角点噪声，px",
   provenance_objective: "目标",
   provenance_planner: "规划器",
+  provenance_weights: "权重",
+  provenance_draws: "相机与手的抽样数",
+  provenance_noise_source: "各姿态噪声来源",
   fact_mapping_short: "映射误差",
   fact_norm: "参数误差的范数",
   fact_norm_note: "论文的度量",
