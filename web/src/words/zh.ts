@@ -124,7 +124,6 @@ export const zh: Words = {
   gate_bias: "偏差",
   gate_cross_check: "交叉检验",
   gate_identity: "身份",
-  gate_cross_check: "交叉检验",
 
   intrinsics_title: "内参",
   intrinsics_caption: "估计值与一倍标准差",
