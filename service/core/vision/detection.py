@@ -180,7 +180,8 @@ def _discs(blurred: FloatImage, corners: Array, sharpness: Sharpness, noise_shar
 
     The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc. In
     a noisy picture large squares give more of their edges, which averages the noise; else the nearest
-    surroundings are best, as no print is perfect; near the border there is less room. noise_share: sd of the noise over the contrast.
+    surroundings are best, as no print is perfect. Near the border there is less room. noise_share: sd of the
+    noise over the contrast.
     """
     width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
     wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)
