@@ -12,6 +12,7 @@ from sqlalchemy.orm import Session
 
 from service.core.quality.evidence import Expectation, NamedDetection
 from service.core.quality.verdict import Judged, calibrate_and_judge
+from service.core.run import Purpose
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow
@@ -79,7 +80,12 @@ def _other_skus(session: Session, run: RunRow) -> dict[str, Intrinsics]:
 
 
 def _used_for(session: Session, run: RunRow, hashes: list[str]) -> dict[str, str]:
-    """Return which images of a run belong to runs of other serials as well: the serial by content hash."""
+    """Return which images of a run were used before for another serial: that serial by content hash.
+
+    Simulated runs may replay the same pictures for every vehicle.
+    """
+    if run.purpose is Purpose.SIMULATED:
+        return {}
     query = (
         select(CaptureRow.sha256, RunRow.serial)
         .join(RunRow, CaptureRow.run_id == RunRow.id)

@@ -1,10 +1,11 @@
+from typing import Any
 from uuid import uuid4
 
 import pytest
 
 from service.storage.models import AuditEntryRow, CalibrationRow, OutboxEventRow
 from service.storage.words import Role
-from tests.plant import SKU, Plant, pose_set, problem, revision
+from tests.plant import SKU, Plant, pose_set, poses_json, problem, revision
 
 
 def test_a_run_goes_from_its_serial_to_a_verdict(plant: Plant) -> None:
@@ -186,3 +187,27 @@ def test_an_unknown_run_is_not_found(small_plant: Plant) -> None:
     for method, path in (("GET", ""), ("GET", "/result"), ("POST", "/finish"), ("POST", "/abort")):
         problem(small_plant.call(method, f"/runs/{uuid4()}{path}"), 404, "not-found")
     problem(small_plant.send(str(uuid4()), b"x"), 404, "not-found")
+
+
+def test_pictures_of_another_vehicle_fail_unless_they_are_replayed_on_purpose(small_plant: Plant) -> None:
+    small_plant.publish_sku()
+    small_plant.finished_run("VIN-1")
+    again = small_plant.get(f"/runs/{small_plant.finished_run('VIN-1')}/result").json()
+    swapped = small_plant.get(f"/runs/{small_plant.finished_run('VIN-2')}/result").json()
+
+    def used(result: dict[str, Any]) -> dict[str, Any]:
+        return next(gate for gate in result["gates"] if gate["name"] == "used_elsewhere")
+
+    assert (swapped["verdict"], used(swapped)["verdict"]) == ("FAIL", "FAIL")
+    assert "VIN-1" in used(swapped)["advice"]
+    assert used(again)["verdict"] == "PASS"
+
+
+def test_simulated_runs_may_show_the_same_pictures_for_every_vehicle(small_plant: Plant) -> None:
+    small_plant.publish_sku()
+    small_plant.finished_run("VIN-1")
+    run_id = small_plant.open_run("VIN-2", purpose="simulated")
+    for index in range(len(poses_json())):
+        small_plant.upload(run_id, index)
+
+    assert small_plant.finish(run_id).json()["verdict"] == "PASS"
