@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from service.core.errors import ServiceError
 from service.core.quality.evidence import Evidence
-from service.core.quality.gates import Measurement, check_limit
+from service.core.quality.gates import Measurement, Verdict, check_limit
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
 from service.core.vision.leave_one_out import leave_one_out
 from service.core.vision.uncertainty import mapping_difference, mapping_error
@@ -30,6 +30,11 @@ def measure_cross_check(evidence: Evidence) -> tuple[Measurement, ...]:
     return (_halves(evidence, views), _held_out(evidence, views))
 
 
+def _worst(evidence: Evidence) -> Verdict:
+    """Without a SKU the board is somebody's paper, and what it is bent by differs from half to half."""
+    return Verdict.MARGINAL if evidence.expectation is None else Verdict.FAIL
+
+
 def _halves(evidence: Evidence, views: Sequence[View]) -> Measurement:
     order = np.arange(len(views))
     # Cameras may have been changed at every picture, or once.
@@ -45,6 +50,7 @@ def _halves(evidence: Evidence, views: Sequence[View]) -> Measurement:
         bad="Halves of the views lead to different cameras.",
         remedy="Check that all images are of this one camera, that its lens is fixed and focused, and that "
         "the serial is that of the camera; then take the views again.",
+        worst=_worst(evidence),
     )
 
 
@@ -102,5 +108,6 @@ def _held_out(evidence: Evidence, views: Sequence[View]) -> Measurement:
         good="Every view fits the camera that the others find.",
         bad=f"Views do not fit the camera that the others find, {worst} least of all.",
         remedy=f"Take {worst} again, or add views of that kind: alone it decides too much.",
+        worst=_worst(evidence),
         facts={"views": [worst]},
     )
