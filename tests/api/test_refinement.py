@@ -1,4 +1,4 @@
-"""A camera whose nominal focal length is 10 % off: runs at a virtual station refine it until its plan holds."""
+"""A camera whose nominal focal length is 10 % off: runs at a virtual station refine it until it settles."""
 
 from collections.abc import Iterator
 from pathlib import Path
