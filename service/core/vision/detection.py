@@ -28,7 +28,6 @@ from service.core.vision.grid_growth import complete_grid, measure_steps, room_p
 from service.core.vision.light import LightFall, even_out, fit_light, read_cells
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
-from service.core.vision.pixel_noise import noise_around
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage, smooth
 from service.core.vision.sharpness import Sharpness, measure_sharpness
@@ -41,10 +40,6 @@ GRIDS_PER_SCALE = 3
 PROVING_SIGMA_PX = 1.2
 REFINING_SIGMA_PX = 1.0
 DISC_RADII_PX = (3.0, 8.0)
-NOISY_SHARE = 0.008  # of the contrast, from which on the noise matters more than how a board is printed
-WIDE_SQUARE_PX = 24.0  # smaller height of the squares from which on more of the edges is used
-WIDE_SIGMA_PX = 2.0
-WIDE_DISC_PX = 5.0
 DISC_PER_EDGE_WIDTH = 1.5
 DISC_PER_SQUARE = 0.4
 LEAST_SEPARATION = 0.2
@@ -83,8 +78,7 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
     light = fit_light(cells)
     parity = measure_parity(cells, light)
     _check_parity(parity, target)
-    noise_share = noise_around(image, corners.reshape(-1, 2)) / max(float(parity.contrast), 1.0)
-    points = _refined(blurred, corners, light, _discs(blurred, corners, sharpness, noise_share), target)
+    points = _refined(blurred, corners, light, sharpness, target)
     return Detection(
         image_points=points,
         corner_ids=np.arange(len(points)),
@@ -167,44 +161,21 @@ def _lies_inside(grid: CornerGrid, other: CornerGrid) -> bool:
     return bool(cv2.pointPolygonTest(hull, (float(x), float(y)), False) >= 0)
 
 
-@dataclass(frozen=True)
-class Discs:
-    """Of the fits of n corners: radii (n,) px, and which (n,) are fitted to a smoother surface."""
+def _refined(
+    blurred: FloatImage, corners: Array, light: LightFall, sharpness: Sharpness, target: Chessboard
+) -> Array:
+    """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be.
 
-    radii: NDArray[np.int64]
-    wide: NDArray[np.bool_]
-
-
-def _discs(blurred: FloatImage, corners: Array, sharpness: Sharpness, noise_share: float) -> Discs:
-    """Return how much of its surroundings each of the corners (rows, columns, 2) px is fitted to.
-
-    The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc. In
-    a noisy picture large squares give more of their edges, which averages the noise; else the nearest
-    surroundings are best, as no print is perfect. Near the border there is less room. noise_share: sd of the
-    noise over the contrast.
+    The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc.
+    Near the border of the image there is less room.
     """
     width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
     wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)
     square = measure_steps(corners).square_px.ravel()
-    room = np.floor(room_px(blurred, corners.reshape(-1, 2)))
-    wide = (noise_share >= NOISY_SHARE) & (square >= WIDE_SQUARE_PX) & (room > WIDE_DISC_PX + WIDE_SIGMA_PX)
-    wanted = np.where(wide, np.maximum(wanted, WIDE_DISC_PX), wanted)
-    wanted = np.minimum(wanted, np.minimum(np.floor(DISC_PER_SQUARE * square), room))
-    return Discs(np.maximum(wanted, 2).astype(np.int64), wide)
-
-
-def _refined(
-    blurred: FloatImage, corners: Array, light: LightFall, discs: Discs, target: Chessboard
-) -> Array:
-    """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be."""
+    room = np.minimum(np.floor(DISC_PER_SQUARE * square), np.floor(room_px(blurred, corners.reshape(-1, 2))))
+    radii = np.maximum(np.minimum(wanted, room), 2).astype(np.int64)
     even, origin = even_out(blurred, light, corners.reshape(-1, 2), margin_px=int(3 * DISC_RADII_PX[1]))
-    points = corners.reshape(-1, 2) - origin
-    proven = np.zeros(len(points), dtype=bool)
-    smoother = smooth(even, float(np.sqrt(WIDE_SIGMA_PX**2 - REFINING_SIGMA_PX**2)))
-    for group, surface in ((~discs.wide, even), (discs.wide, smoother)):
-        points[group], proven[group] = refine_saddles(
-            surface, points[group], discs.radii[group], iterations=20
-        )
+    points, proven = refine_saddles(even, corners.reshape(-1, 2) - origin, radii, iterations=20)
     if not proven.all():
         raise refuse_partial(int(proven.sum()), target)
     return points + origin
