@@ -7,11 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.transforms import Array
 
 NEAREST_M = 1e-9
 ITERATIONS = 50
+BISECTIONS = 24
+FARTHEST = 12.0  # ideal radius, 85 degrees
 
 
 @dataclass(frozen=True)
@@ -54,15 +57,33 @@ class PerspectiveLens:
         iteration of five steps (OpenCV's default) is up to a pixel off.
         """
         limit = self.reach_of(k)
-        ideal = _inside(image, 0.99 * limit)
+        ideal, good = self._newton(image, k, _inside(image, 0.99 * limit), limit)
+        if not np.all(good | ~np.isfinite(image).all(axis=-1, keepdims=True)):
+            # Far from the image, as with a strongly bent quotient, Newton may leap about: begin near the end.
+            again, found = self._newton(image, k, self._bisected(image, k, limit), limit)
+            ideal, good = np.where(good, ideal, again), good | found
+        return np.where(good, np.concatenate([ideal, np.ones_like(ideal[..., :1])], axis=-1), np.nan)
+
+    def _newton(self, image: Array, k: Array, ideal: Array, limit: float) -> tuple[Array, NDArray[np.bool_]]:
+        """Return ideal coordinates (..., 2) from a start, and whether they give the image (..., 1)."""
         for _ in range(ITERATIONS):
             distorted, by_ideal, _ = self.distort_with_jacobians(ideal, k)
             residual = image - distorted
             if not np.any(np.abs(residual) > 1e-13):
                 break
             ideal = _before_fold(ideal, _solve_2x2(by_ideal, residual), limit)
-        good = np.linalg.norm(image - self.distort(ideal, k), axis=-1, keepdims=True) < 1e-9
-        return np.where(good, np.concatenate([ideal, np.ones_like(ideal[..., :1])], axis=-1), np.nan)
+        return ideal, np.linalg.norm(image - self.distort(ideal, k), axis=-1, keepdims=True) < 1e-9
+
+    def _bisected(self, image: Array, k: Array, limit: float) -> Array:
+        """Return points (..., 2) along the image's own directions whose distorted radius is the image's."""
+        wanted = np.linalg.norm(image, axis=-1, keepdims=True)
+        along = image / np.maximum(wanted, 1e-12)
+        low, high = np.zeros_like(wanted), np.full_like(wanted, min(limit, FARTHEST))
+        for _ in range(BISECTIONS):
+            middle = 0.5 * (low + high)
+            beyond = np.linalg.norm(self.distort(middle * along, k), axis=-1, keepdims=True) > wanted
+            low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+        return np.asarray(0.5 * (low + high) * along)
 
     def radius(self, points: Array) -> Array:
         """Return the ideal radius √(X² + Y²)/Z of points (..., 3), inf where Z is not positive."""

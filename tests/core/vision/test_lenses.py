@@ -79,6 +79,8 @@ def test_the_image_radius_grows_up_to_the_reach_and_not_beyond(name: str, data: 
         point = (
             np.array([np.tan(reach), 0.0, 1.0]) if name == "kannala_brandt4" else np.array([reach, 0, 1.0])
         )
+        # Just before the end, for at a pole itself the quotient has no value.
+        point[0] *= 1.0 - 1e-9
         _, by_point, _ = lens.project_with_jacobians(point, k)
         # Across the direction; a pole of the rational model has a slope without bound instead.
         slope = abs(by_point[0] @ np.array([point[2], 0.0, -point[0]]))
@@ -100,3 +102,11 @@ def test_without_coefficients_a_lens_reaches_as_far_as_its_kind_can(name: str) -
 def test_what_is_straight_behind_a_fisheye_has_no_image() -> None:
     image = LENSES["kannala_brandt4"].project(np.array([0.0, 0.0, -1.0]), np.zeros(4))
     assert np.all(np.isnan(image))
+
+
+def test_newton_that_leaps_about_is_helped() -> None:
+    lens, k = LENSES["rational8"], np.array([0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.125, 0.0])
+    for share in (0.5, 0.75, 0.9):
+        wanted = direction("rational8", k, share, 0.0)
+        found = lens.unproject(lens.project(wanted, k), k)
+        np.testing.assert_allclose(found / np.linalg.norm(found), wanted, atol=1e-6)
