@@ -24,9 +24,11 @@ BAR_REACH: Final = 4.0  # an error of so many tolerances beyond the first halves
 BORDER_PX: Final = 4.0  # corners nearer to the border cannot be found
 UNSEEN_PX: Final = 1e4
 PAIRS: Final = tuple(combinations(range(6), 2))
-# Which of the six errors are mended, and by how much of each: alone, half alone, in pairs.
+# What may be mended together: any two errors, and both shifts with any third.
+TOGETHER: Final[tuple[tuple[int, ...], ...]] = (*PAIRS, *((0, 1, k) for k in range(2, 6)))
+# Which of the six errors are mended, and by how much of each: alone, half alone, together.
 MENDINGS: Final = np.concatenate(
-    [np.eye(6), 0.5 * np.eye(6), [np.eye(6)[i] + np.eye(6)[j] for i, j in PAIRS]]
+    [np.eye(6), 0.5 * np.eye(6), [np.eye(6)[list(axes)].sum(axis=0) for axes in TOGETHER]]
 )
 
 Six = tuple[bool, bool, bool, bool, bool, bool]
@@ -71,8 +73,8 @@ class PoseDifference:
     corner_px: mean distance of the four outer corners, the paper's rule. effects_px: by how much each of the
     six errors alone moves those corners, in the order of the fields. ways: how far a hand must move the board
     for each, m and rad. leads_out, half_leads_out: whether to mend that error alone, or half of it, would
-    take a corner of the seen board out of the picture; pairs_lead_out: the pairs of fields (i, j), i < j,
-    that would do so when both are mended. is_upside_down: turned by about 180°.
+    take a corner of the seen board out of the picture; together_lead_out: the fields (i, j, …), ascending, of
+    TOGETHER that would do so when all of them are mended. is_upside_down: turned by about 180°.
     """
 
     right_px: float
@@ -87,7 +89,7 @@ class PoseDifference:
     ways: tuple[float, float, float, float, float, float]
     leads_out: Six = NONE
     half_leads_out: Six = NONE
-    pairs_lead_out: frozenset[tuple[int, int]] = frozenset()
+    together_lead_out: frozenset[tuple[int, ...]] = frozenset()
 
 
 def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
@@ -127,7 +129,7 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Che
         ways=(float(across), float(down_m), float(along), abs(tilt), abs(turn), abs(roll)),
         leads_out=_six(alone),
         half_leads_out=_six(half),
-        pairs_lead_out=frozenset(pair for pair, leads in zip(PAIRS, together, strict=True) if leads),
+        together_lead_out=frozenset(axes for axes, leads in zip(TOGETHER, together, strict=True) if leads),
     )
 
 

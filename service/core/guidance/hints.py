@@ -8,7 +8,7 @@ the user interface; when to capture lives in `auto_capture`.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from itertools import combinations
+from itertools import chain, combinations
 from types import MappingProxyType
 from typing import Final
 
@@ -60,7 +60,8 @@ DIRECTIONS: Final = (
     (Hint.ROTATE_CLOCKWISE, Hint.ROTATE_COUNTERCLOCKWISE),
 )
 SHIFTS: Final = (0, 1, 2)  # of DIRECTIONS
-MOST_HINTS: Final = 2
+SIDEWAYS: Final = frozenset({0, 1})  # of DIRECTIONS: one arrow shows both
+MOST_INSTRUCTIONS: Final = 2
 # Each error alone may move the outer corners by this share of their tolerance.
 EFFECT_SHARE: Final = 0.6
 # A hint that is being followed is kept until its error is within this share of its tolerance.
@@ -84,12 +85,13 @@ MIRRORED: Final[Mapping[Hint, Hint]] = MappingProxyType(
 def choose_hints(
     difference: PoseDifference, tolerances: Tolerances, previous: tuple[Hint, ...]
 ) -> tuple[Hint, ...]:
-    """Return at most two movements: those of the previous that are not done yet, then the largest errors.
+    """Return at most two instructions: those of the previous that are not done yet, then the largest errors.
 
-    Errors are measured in units of their tolerances. What would take the board out of the picture as it is
-    held now waits until the other errors are mended, and two movements are only named together if the board
-    stays in the picture when both are made. None where the pose matches; only TURN_UPSIDE_DOWN where the
-    board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
+    A shift to the side and one up or down are one instruction, a slanting arrow, so that there may be three
+    hints. Errors are measured in units of their tolerances. What would take the board out of the picture as
+    it is held now waits until the other errors are mended, and movements are only named together if the board
+    stays in the picture when all of them are made. None where the pose matches; only TURN_UPSIDE_DOWN where
+    the board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
     """
     if difference.is_upside_down:
         return (Hint.TURN_UPSIDE_DOWN,)
@@ -105,23 +107,41 @@ def choose_hints(
 
 
 def _choose_safe(ordered: list[int], difference: PoseDifference) -> list[int]:
-    """Return which one or two of the wanted movements, by their axes, keep the board in the picture.
+    """Return which of the wanted movements, by their axes, keep the board in the picture.
 
-    First what is safe alone, with another that is safe beside it. Else two that are only safe together: one
+    First what is safe alone, with others that are safe beside it. Else two that are only safe together: one
     makes room for the other. Else what is safe for half of its way, and at last whatever is wanted.
     """
-    for first in (i for i in ordered if not difference.leads_out[i]):
-        beside = [i for i in ordered if i != first and not _lead_out(first, i, difference)]
-        return [first, *beside[: MOST_HINTS - 1]]
-    for first, second in combinations(ordered, 2):
-        if not _lead_out(first, second, difference):
-            return [first, second]
+    alone = ([i] for i in ordered if not difference.leads_out[i])
+    pairs = (list(pair) for pair in combinations(ordered, 2) if not _lead_out(list(pair), difference))
+    safe = next(chain(alone, pairs), None)
+    if safe is not None:
+        return _add_safe(safe, ordered, difference)
     half = [i for i in ordered if not difference.half_leads_out[i]]
     return (half or ordered)[:1]
 
 
-def _lead_out(i: int, j: int, difference: PoseDifference) -> bool:
-    return (min(i, j), max(i, j)) in difference.pairs_lead_out
+def _add_safe(chosen: list[int], ordered: list[int], difference: PoseDifference) -> list[int]:
+    """Return the chosen movements and what may be named beside them, both shifts one after the other."""
+    for i in ordered:
+        more = [*chosen, i]
+        if i not in chosen and _instructions(more) <= MOST_INSTRUCTIONS and not _lead_out(more, difference):
+            chosen = more
+    return _with_shifts_side_by_side(chosen)
+
+
+def _with_shifts_side_by_side(axes: list[int]) -> list[int]:
+    first = min((axes.index(i) for i in SIDEWAYS.intersection(axes)), default=0)
+    return sorted(axes, key=lambda i: first if i in SIDEWAYS else axes.index(i))
+
+
+def _instructions(axes: list[int]) -> int:
+    """Return how many instructions movements are."""
+    return len(axes) - (SIDEWAYS <= set(axes))
+
+
+def _lead_out(axes: list[int], difference: PoseDifference) -> bool:
+    return tuple(sorted(axes)) in difference.together_lead_out
 
 
 def errors_in_tolerances(difference: PoseDifference, tolerances: Tolerances) -> dict[Hint, float]:
@@ -150,7 +170,7 @@ def show_hints(moves: tuple[Hint, ...], difference: PoseDifference) -> tuple[Sho
     """Return movements with their amounts.
 
     One that is alone and would lead out of the picture has half its way before it: a hand goes on for a
-    moment and must not get there. Of two that lead out alone, each makes room for the other.
+    moment and must not get there. Of several that lead out alone, each makes room for the others.
     """
     return tuple(ShownHint(move, coarse_amount(move, difference, is_lone=len(moves) == 1)) for move in moves)
 
@@ -171,4 +191,4 @@ def mirror_hint(hint: Hint) -> Hint:
 
 
 def _place(hint: Hint, previous: tuple[Hint, ...]) -> int:
-    return previous.index(hint) if hint in previous else MOST_HINTS
+    return previous.index(hint) if hint in previous else len(previous)

@@ -79,6 +79,8 @@ def _closed_form(board: Array, rays: Array) -> tuple[Array, Array]:
         raise PoseUndetermined("The corners do not span a plane; show the target less edge-on.") from error
     if len(rvecs) == 0:
         raise PoseUndetermined("The corners do not span a plane; show the target less edge-on.")
+    for rvec, tvec in zip(rvecs, tvecs, strict=True):
+        cv2.solvePnPRefineLM(board, ideal[0], np.eye(3), np.zeros(4), rvec, tvec)
     turns, shifts = np.array(rvecs, dtype=np.float64), np.array(tvecs, dtype=np.float64)
     return towards[0].T @ rotation_matrix(turns[..., 0]), shifts[..., 0] @ towards[0]
 

@@ -89,25 +89,25 @@ def test_what_would_take_the_board_out_of_the_picture_waits() -> None:
     blocked = replace(far, leads_out=(True, False, False, False, False, False))
     assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_LEFT, Hint.ROTATE_CLOCKWISE)
     assert choose_hints(blocked, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE, Hint.MOVE_LEFT)
-    apart = replace(blocked, pairs_lead_out=frozenset({(0, 5)}))
+    apart = replace(blocked, together_lead_out=frozenset({(0, 5)}))
     assert choose_hints(apart, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
     stuck = replace(difference(right_px=-500.0), leads_out=blocked.leads_out)
     assert choose_hints(stuck, TOLERANCES, ()) == (Hint.MOVE_LEFT,)
 
 
 def test_two_are_named_together_only_if_the_board_stays_in_the_picture_then() -> None:
-    far = replace(difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3), pairs_lead_out=frozenset({(0, 5)}))
+    far = replace(difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3), together_lead_out=frozenset({(0, 5)}))
     assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_LEFT, Hint.TILT_TOP_FORWARD)
-    alone = replace(far, pairs_lead_out=frozenset({(0, 5), (0, 3)}))
+    alone = replace(far, together_lead_out=frozenset({(0, 5), (0, 3)}))
     assert choose_hints(alone, TOLERANCES, ()) == (Hint.MOVE_LEFT,)
 
 
 def test_two_that_are_safe_only_together_are_named_together() -> None:
     far = difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3)
     none_alone = replace(far, leads_out=(True,) * 6, half_leads_out=(True, False, True, True, True, False))
-    others = replace(none_alone, pairs_lead_out=frozenset({(0, 3), (0, 5)}))
+    others = replace(none_alone, together_lead_out=frozenset({(0, 3), (0, 5)}))
     assert choose_hints(others, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE, Hint.TILT_TOP_FORWARD)
-    none_together = replace(none_alone, pairs_lead_out=frozenset({(0, 3), (0, 5), (3, 5)}))
+    none_together = replace(none_alone, together_lead_out=frozenset({(0, 3), (0, 5), (3, 5)}))
     assert choose_hints(none_together, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
 
 
