@@ -85,13 +85,14 @@ MIRRORED: Final[Mapping[Hint, Hint]] = MappingProxyType(
 def choose_hints(
     difference: PoseDifference, tolerances: Tolerances, previous: tuple[Hint, ...]
 ) -> tuple[Hint, ...]:
-    """Return at most two instructions: those of the previous that are not done yet, then the largest errors.
+    """Return at most two instructions: those of the previous that are not done yet, then the longest ways.
 
-    A shift to the side and one up or down are one instruction, a slanting arrow, so that there may be three
-    hints. Errors are measured in units of their tolerances. What would take the board out of the picture as
-    it is held now waits until the other errors are mended, and movements are only named together if the board
-    stays in the picture when all of them are made. None where the pose matches; only TURN_UPSIDE_DOWN where
-    the board is. Where no error alone exceeds its tolerance and the corners do, the largest error is named.
+    The longest way decides when the pose is reached; shorter ones are gone meanwhile. A shift to the side and
+    one up or down are one instruction, a slanting arrow, so that there may be three hints. What would take
+    the board out of the picture as it is held now waits until the other errors are mended, and movements are
+    only named together if the board stays in the picture when all of them are made. None where the pose
+    matches; only TURN_UPSIDE_DOWN where the board is. An error matters from its tolerance on; where none does
+    and the corners are off, the largest in units of its tolerance is named.
     """
     if difference.is_upside_down:
         return (Hint.TURN_UPSIDE_DOWN,)
@@ -102,7 +103,7 @@ def choose_hints(
     limits = [KEPT_UNTIL if hint in previous else 1.0 for hint in hints]
     sizes = list(errors.values())
     wanted = [i for i in range(len(hints)) if sizes[i] > limits[i]] or [max(range(6), key=sizes.__getitem__)]
-    ordered = sorted(wanted, key=lambda i: (_place(hints[i], previous), -sizes[i]))
+    ordered = sorted(wanted, key=lambda i: (_place(hints[i], previous), -_way_share(i, difference)))
     return tuple(hints[i] for i in _choose_safe(ordered, difference))
 
 
@@ -180,9 +181,14 @@ def coarse_amount(hint: Hint, difference: PoseDifference, *, is_lone: bool = Fal
     axis = next((i for i, pair in enumerate(DIRECTIONS) if hint in pair), None)
     if axis is None:
         return 1.0
-    share = difference.ways[axis] / (FAR_M if axis in SHIFTS else FAR_RAD)
+    share = _way_share(axis, difference)
     share *= 0.5 if is_lone and difference.leads_out[axis] else 1.0
     return min(AMOUNTS, key=lambda amount: abs(np.log(amount / max(share, AMOUNTS[0]))))
+
+
+def _way_share(axis: int, difference: PoseDifference) -> float:
+    """Return the way left for a movement as a share of what is far for a hand."""
+    return difference.ways[axis] / (FAR_M if axis in SHIFTS else FAR_RAD)
 
 
 def mirror_hint(hint: Hint) -> Hint:

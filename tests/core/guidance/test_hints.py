@@ -17,6 +17,7 @@ from service.core.guidance.hints import (
 )
 
 TOLERANCES = default_tolerances((1280, 800))
+M_PER_PX = 0.6 / 1350.0
 FIELDS = ("right_px", "down_px", "closer_share", "tilt_rad", "turn_rad", "roll_rad")
 
 
@@ -24,7 +25,8 @@ def difference(**errors: float) -> PoseDifference:
     right, down, closer, tilt, turn, roll = (errors.get(name, 0.0) for name in FIELDS)
     none = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     corner_px = errors.get("corner_px", 100.0)
-    return PoseDifference(right, down, closer, tilt, turn, roll, corner_px, False, none, ways=none)
+    ways = (abs(right * M_PER_PX), abs(down * M_PER_PX), abs(0.6 * closer), abs(tilt), abs(turn), abs(roll))
+    return PoseDifference(right, down, closer, tilt, turn, roll, corner_px, False, none, ways=ways)
 
 
 @pytest.mark.parametrize(
@@ -48,9 +50,27 @@ def test_each_error_has_its_hint(error: dict[str, float], hint: Hint) -> None:
     assert choose_hints(difference(**error), TOLERANCES, ()) == (hint,)
 
 
-def test_the_largest_error_in_units_of_its_tolerance_comes_first_and_two_are_named() -> None:
+def test_the_longest_way_comes_first_and_two_are_named() -> None:
     many = difference(right_px=60.0, tilt_rad=np.deg2rad(35.0), closer_share=0.2)
-    assert choose_hints(many, TOLERANCES, ()) == (Hint.TILT_TOP_FORWARD, Hint.MOVE_CLOSER)
+    assert choose_hints(many, TOLERANCES, ()) == (Hint.MOVE_CLOSER, Hint.TILT_TOP_FORWARD)
+
+
+def test_a_slanting_shift_is_one_instruction_of_two_hints() -> None:
+    slanting = difference(right_px=300.0, down_px=-60.0, tilt_rad=0.3, roll_rad=0.2)
+    shifts = (Hint.MOVE_RIGHT, Hint.MOVE_UP)
+    assert choose_hints(slanting, TOLERANCES, ()) == (*shifts, Hint.TILT_TOP_FORWARD)
+    turned = difference(right_px=50.0, down_px=-60.0, tilt_rad=0.9, roll_rad=0.2)
+    assert choose_hints(turned, TOLERANCES, ()) == (Hint.TILT_TOP_FORWARD, Hint.ROTATE_CLOCKWISE)
+    previous = (Hint.TILT_TOP_FORWARD, Hint.MOVE_RIGHT)
+    assert choose_hints(turned, TOLERANCES, previous) == (*previous, Hint.MOVE_UP)
+
+
+def test_a_shift_that_would_lead_out_is_not_added_to_the_other() -> None:
+    slanting = difference(right_px=300.0, down_px=-60.0, tilt_rad=0.3)
+    no_way_up = replace(slanting, together_lead_out=frozenset({(0, 1), (0, 1, 3), (1, 3)}))
+    assert choose_hints(no_way_up, TOLERANCES, ()) == (Hint.MOVE_RIGHT, Hint.TILT_TOP_FORWARD)
+    not_all = replace(slanting, together_lead_out=frozenset({(0, 1, 3)}))
+    assert choose_hints(not_all, TOLERANCES, ()) == (Hint.MOVE_RIGHT, Hint.TILT_TOP_FORWARD)
 
 
 def test_a_hint_is_kept_until_its_error_is_within_the_tolerance() -> None:
@@ -81,7 +101,9 @@ def test_an_error_counts_by_what_it_does_to_the_corners_where_that_is_more() -> 
     near = replace(
         difference(roll_rad=np.deg2rad(3.0), right_px=35.0), effects_px=(0.0, 0.0, 0.0, 0.0, 0.0, 40.0)
     )
-    assert choose_hints(near, TOLERANCES, ())[0] == Hint.ROTATE_CLOCKWISE
+    assert choose_hints(near, TOLERANCES, ()) == (Hint.MOVE_RIGHT, Hint.ROTATE_CLOCKWISE)
+    far = replace(near, effects_px=(0.0,) * 6)
+    assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_RIGHT,)
 
 
 def test_what_would_take_the_board_out_of_the_picture_waits() -> None:
@@ -96,7 +118,9 @@ def test_what_would_take_the_board_out_of_the_picture_waits() -> None:
 
 
 def test_two_are_named_together_only_if_the_board_stays_in_the_picture_then() -> None:
-    far = replace(difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3), together_lead_out=frozenset({(0, 5)}))
+    far = replace(
+        difference(right_px=-500.0, roll_rad=0.6, tilt_rad=0.3), together_lead_out=frozenset({(0, 5)})
+    )
     assert choose_hints(far, TOLERANCES, ()) == (Hint.MOVE_LEFT, Hint.TILT_TOP_FORWARD)
     alone = replace(far, together_lead_out=frozenset({(0, 5), (0, 3)}))
     assert choose_hints(alone, TOLERANCES, ()) == (Hint.MOVE_LEFT,)
