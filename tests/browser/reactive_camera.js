@@ -139,7 +139,7 @@
   const sense = [0, 0, 0, 0, 0, 0];
   const amounts = new Map(); // of the hints that came last: how far there is to go, coarsely
   let heard = []; // what the page showed, until it reaches the hand
-  let obeyed = null;
+  let obeyed = [];
   let flipping_s = 0;
 
   function rotation([x, y, z]) {
@@ -167,14 +167,16 @@
   }
 
   function live(now_s, dt_s) {
-    const shown = document.querySelector(".strip")?.dataset.hint ?? null;
-    heard.push({ at_s: now_s + REACTION_S, code: swapped[shown] ?? shown, amount: amounts.get(shown) ?? 1 });
-    while (heard.length > 0 && heard[0].at_s <= now_s) obeyed = heard.shift();
+    const strip = document.querySelector(".strip");
+    const step = [strip?.dataset.hint, strip?.dataset.beside].filter((code) => code !== undefined);
+    const told = step.map((shown) => ({ code: swapped[shown] ?? shown, amount: amounts.get(shown) ?? 1 }));
+    heard.push({ at_s: now_s + REACTION_S, told });
+    while (heard.length > 0 && heard[0].at_s <= now_s) obeyed = heard.shift().told;
     if (flipping_s > 0) {
       flipping_s -= dt_s;
       move([0, 0, 0, 0, 0, (Math.PI * dt_s) / FLIP_S]);
-      if (flipping_s <= 0) [heard, obeyed] = [[], null];
-    } else if (obeyed !== null) obey(obeyed, dt_s);
+      if (flipping_s <= 0) [heard, obeyed] = [[], []];
+    } else for (const hint of obeyed) obey(hint, dt_s);
     tremble();
   }
 

@@ -352,7 +352,9 @@ class State(Told):
     seen: BoardSeen | None = Field(description="Null unless the whole declared board is present.")
     ghost: Ghost | None = Field(description="Null once all poses are captured.")
     difference: Difference | None
-    hints: list[HintSaid] = Field(description="At most two, the more important one first.")
+    hints: list[HintSaid] = Field(
+        description="Of at most two steps, the first one in front; two shifts in a row are one slanting step."
+    )
     match: Share = Field(description="1: within every tolerance.")
     dwell: Share = Field(description="How much of the time that the match must last has passed.")
     pose_index: int | None

@@ -138,7 +138,7 @@ def _with_shifts_side_by_side(axes: list[int]) -> list[int]:
 
 def _instructions(axes: list[int]) -> int:
     """Return how many instructions movements are."""
-    return len(axes) - (SIDEWAYS <= set(axes))
+    return len(axes) - (set(axes) >= SIDEWAYS)
 
 
 def _lead_out(axes: list[int], difference: PoseDifference) -> bool:

@@ -33,9 +33,9 @@ class SessionView:
 
     pose_index: the pose that is asked for, None when all are captured. board: what the latest frame showed.
     ghost: (n, 2) px, the expected board's corners in the target's order. match, dwell: 0…1; match is 1
-    exactly where the pose matches. hints: at most two, the first one now. is_storing: a capture is on its way
-    to the disk. refused: the reason of the latest refusal, a code. instead_of, tried_s, absent_s: as in the
-    state.
+    exactly where the pose matches. hints: of at most two steps, the first one now. is_storing: a capture is
+    on its way to the disk. refused: the reason of the latest refusal, a code. instead_of, tried_s, absent_s:
+    as in the state.
     """
 
     pose_index: int | None

@@ -288,7 +288,7 @@ export interface State {
   /** Null once all poses are captured. */
   ghost: Ghost | null;
   difference: Difference | null;
-  /** At most two, the more important one first. */
+  /** Of at most two steps, the first one in front; two shifts in a row are one slanting step. */
   hints: HintSaid[];
   /** 1: within every tolerance. */
   match: number;

@@ -8,7 +8,8 @@ import { isFinishing, type KioskState, type Told } from "./kiosk_state";
 import { Marked } from "./marked";
 import { hintOnDisplay, type HintCode } from "./mirror";
 import { Pictogram } from "./pictogram";
-import { hintText, problemText } from "./said";
+import { problemText } from "./said";
+import { stepsOf, stepText, type Step } from "./steps";
 
 export function Instruction({ kiosk }: { kiosk: Kiosk }): JSX.Element {
   const state = kiosk.state.value;
@@ -36,15 +37,17 @@ interface HintProps {
 }
 
 function Hint({ kiosk, state, say, codes }: HintProps): JSX.Element {
-  const [code, next] = codes;
+  const [step, next] = stepsOf(codes);
   const { live, run } = state;
-  if (code === undefined || live === null) return <Note text={say.guide_manual} />;
+  if (step === undefined || live === null) return <Note text={say.guide_manual} />;
+  const { code, beside } = step;
   const wanted = run?.poses.find((pose) => pose.pose_index === live.pose_index)?.angles ?? null;
   const isHeld = live.is_capturing || code === "hold" || code === "hold-still";
   return (
-    <section class={`strip ${isHeld ? "strip-good" : "strip-move"}`} data-hint={code}>
+    <section class={`strip ${isHeld ? "strip-good" : "strip-move"}`} data-hint={code} data-beside={beside}>
       <Pictogram
         code={code}
+        beside={beside}
         wanted={wanted}
         difference={live.difference}
         dwell={live.is_capturing ? 1 : live.dwell}
@@ -52,7 +55,7 @@ function Hint({ kiosk, state, say, codes }: HintProps): JSX.Element {
       />
       <div class="strip-words">
         <p class="strip-main" role="status">
-          <Marked text={hintText(code, say)} />
+          <Marked text={stepText(step, say)} />
         </p>
         <p class="strip-next">
           {(live.is_capturing ? null : helpText(code, live, say)) ??
@@ -63,11 +66,11 @@ function Hint({ kiosk, state, say, codes }: HintProps): JSX.Element {
   );
 }
 
-function detailOf(code: HintCode, next: HintCode | undefined, isCapturing: boolean, say: Words): string {
+function detailOf(code: HintCode, next: Step | undefined, isCapturing: boolean, say: Words): string {
   if (isCapturing) return say.guide_capturing;
   if (code === "turn-upside-down") return say.guide_dot_into_ring;
   if (code === "wrong-board") return say.guide_wrong_board;
-  return next === undefined ? "" : `${say.guide_next}: ${hintText(next, say).replaceAll("*", "")}`;
+  return next === undefined ? "" : `${say.guide_next}: ${stepText(next, say).replaceAll("*", "")}`;
 }
 
 function Note({ text, isBusy = false }: { text: string; isBusy?: boolean }): JSX.Element {

@@ -7,17 +7,25 @@ import { sideView, type SideView } from "./side_view";
 
 interface Props {
   code: HintCode;
+  /** The other shift of a slanting one. */
+  beside: HintCode | null;
   wanted: PoseAngles | null;
   difference: State["difference"];
   dwell: number;
   isMirrored: boolean;
 }
 
-export function Pictogram({ code, wanted, difference, dwell, isMirrored }: Props): JSX.Element {
+export function Pictogram({ code, beside, wanted, difference, dwell, isMirrored }: Props): JSX.Element {
   const view = sideView(code, wanted, difference, isMirrored);
   return (
     <svg class="pictogram" viewBox="0 0 160 120" aria-hidden="true" data-view={view?.view ?? code}>
-      {view !== null ? <Side view={view} /> : code === "hold" ? <Hold dwell={dwell} /> : drawingOf(code)}
+      {view !== null ? (
+        <Side view={view} />
+      ) : code === "hold" ? (
+        <Hold dwell={dwell} />
+      ) : (
+        drawingOf(code, beside)
+      )}
     </svg>
   );
 }
@@ -192,15 +200,20 @@ function Light({ isMore }: { isMore: boolean }): JSX.Element {
   );
 }
 
-function drawingOf(code: HintCode): JSX.Element {
+function drawingOf(code: HintCode, beside: HintCode | null): JSX.Element {
+  const [shift, other] = [SHIFTS[code], beside === null ? undefined : SHIFTS[beside]];
+  if (shift !== undefined) return <Shift x={shift.x + (other?.x ?? 0)} y={shift.y + (other?.y ?? 0)} />;
   return DRAWINGS[code] ?? <Hold dwell={0} />;
 }
 
+const SHIFTS: Partial<Record<HintCode, Point>> = {
+  "move-left": { x: -1, y: 0 },
+  "move-right": { x: 1, y: 0 },
+  "move-up": { x: 0, y: -1 },
+  "move-down": { x: 0, y: 1 },
+};
+
 const DRAWINGS: Partial<Record<HintCode, JSX.Element>> = {
-  "move-left": <Shift x={-1} y={0} />,
-  "move-right": <Shift x={1} y={0} />,
-  "move-up": <Shift x={0} y={-1} />,
-  "move-down": <Shift x={0} y={1} />,
   "move-closer": <Nearness isCloser />,
   "move-away": <Nearness isCloser={false} />,
   "rotate-clockwise": <Rotate sign={1} />,

@@ -1,9 +1,8 @@
 // Codes of the service in the words of the language. What is not translated yet stays as the service said it.
 import type { Words } from "../words/en";
 import type { Told } from "./kiosk_state";
-import type { HintCode } from "./mirror";
 
-export function hintText(code: HintCode, say: Words): string {
+export function hintText(code: string, say: Words): string {
   return textOf(`hint_${code.replaceAll("-", "_")}`, say) ?? code.replaceAll("-", " ");
 }
 

@@ -3,7 +3,8 @@ import type { Words } from "../words/en";
 import { isFinishing, screenOf, type KioskState, type Told } from "./kiosk_state";
 import { hintOnDisplay } from "./mirror";
 import { isPractice } from "./practice";
-import { hintText, problemText } from "./said";
+import { problemText } from "./said";
+import { stepsOf, stepText } from "./steps";
 
 export function spokenOf(state: KioskState, isMirrored: boolean, say: Words): string | null {
   if (state.problem !== null) return told(state.problem, say);
@@ -12,8 +13,9 @@ export function spokenOf(state: KioskState, isMirrored: boolean, say: Words): st
   if (screen !== "guide") return null;
   if (isFinishing(state)) return say.guide_finishing;
   if (state.refused.capture !== null) return told(state.refused.capture, say);
-  const hint = state.live?.is_capturing === true ? undefined : state.live?.hints[0];
-  return hint === undefined ? null : hintText(hintOnDisplay(hint.code, isMirrored), say).replaceAll("*", "");
+  const hints = state.live?.is_capturing === true ? [] : (state.live?.hints ?? []);
+  const [step] = stepsOf(hints.map(({ code }) => hintOnDisplay(code, isMirrored)));
+  return step === undefined ? null : stepText(step, say).replaceAll("*", "");
 }
 
 /** What is not translated stays unsaid: the voice speaks one language. */
