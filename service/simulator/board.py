@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 from service.simulator.coverage import Steps, integrate_product
 
@@ -66,7 +66,7 @@ class Plate:
         return plate, 0.5 * (window + wave)
 
 
-def make_plate(target: Chessboard, border_squares: float) -> Plate:
+def make_plate(target: Target, border_squares: float) -> Plate:
     """Return the plate of a target with a white border of so many squares."""
     sizes = (target.columns, target.rows)
     outline, window, wave = (

@@ -10,7 +10,7 @@ from service.core.vision.camera import Intrinsics, project
 from service.core.vision.detection import Detection, detect_target
 from service.core.vision.pose import estimate_pose
 from service.core.vision.sharpness import Sharpness
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.usecases.images import check_image, decode_image
 
@@ -36,7 +36,7 @@ class Prescription:
     """What a run asks of an image: nominal camera, target and, for a given pose index, the pose."""
 
     nominal: Intrinsics
-    target: Chessboard
+    target: Target
     pose: Pose | None
 
 
@@ -91,7 +91,7 @@ def match_error(detection: Detection, prescription: Prescription, pose: Pose) ->
     return error if np.isfinite(error) else None
 
 
-def outer_corners(intrinsics: Intrinsics, target: Chessboard, pose: Pose) -> Array:
+def outer_corners(intrinsics: Intrinsics, target: Target, pose: Pose) -> Array:
     """Return where a pose puts the four outer corners: (4, 2) px, NaN behind the camera."""
     points = target.object_points[list(target.outer_corners)]
     return project(intrinsics, pose.rotation, pose.tvec, points)

@@ -21,7 +21,7 @@ from service.core.planning.visibility import (
     place_targets,
 )
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
 Mask = NDArray[np.bool_]
@@ -88,7 +88,7 @@ class Poses:
         """Return the i-th pose."""
         return Pose(rotation_vector(self.rotations[i]), np.array(self.translations[i]))
 
-    def centres(self, target: Chessboard) -> Array:
+    def centres(self, target: Target) -> Array:
         """Return the positions (m, 3), m, of the target's centre in the camera frame."""
         return self.rotations @ target.centre + self.translations
 
@@ -98,9 +98,7 @@ class Poses:
         return angles
 
 
-def sample_poses(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, seed: int
-) -> Poses:
+def sample_poses(space: PoseSpace, intrinsics: Intrinsics, target: Target, count: int, seed: int) -> Poses:
     """Return `count` feasible poses of a scrambled Halton sequence; the same seed gives the same poses.
 
     Distance and angles are spread evenly over their bounds, and boards over all places of the image where one
@@ -111,7 +109,7 @@ def sample_poses(
 
 
 def sample_visible(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, seed: int
+    space: PoseSpace, intrinsics: Intrinsics, target: Target, count: int, seed: int
 ) -> tuple[Poses, Visibility]:
     """Return the poses of `sample_poses` with what they look like."""
     check_pose_space(space)
@@ -138,14 +136,14 @@ def sample_visible(
 
 
 def infeasibilities(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, poses: Poses
+    space: PoseSpace, intrinsics: Intrinsics, target: Target, poses: Poses
 ) -> dict[str, Mask]:
     """Return, for each bound by name, which of the m poses break it: masks (m,)."""
     seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
     return _failures(space, target, poses, seen)
 
 
-def _failures(space: PoseSpace, target: Chessboard, poses: Poses, seen: Visibility) -> dict[str, Mask]:
+def _failures(space: PoseSpace, target: Target, poses: Poses, seen: Visibility) -> dict[str, Mask]:
     near, far = space.depth_of_field_m or (0.0, np.inf)
     # Written as "not within", so that NaN (behind the camera, does not fit) breaks the bound.
     return {
@@ -177,7 +175,7 @@ def check_pose_space(space: PoseSpace) -> PoseSpace:
     return space
 
 
-def _poses_of_unit_cube(space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, cube: Array) -> Poses:
+def _poses_of_unit_cube(space: PoseSpace, intrinsics: Intrinsics, target: Target, cube: Array) -> Poses:
     """Return the poses of points (m, 6) in 0…1: place in the image (2), distance, pitch, yaw, roll."""
     bounds = np.array([space.distance_m, space.pitch_deg, space.yaw_deg, space.roll_deg])
     values = bounds[:, 0] + cube[:, 2:] * (bounds[:, 1] - bounds[:, 0])

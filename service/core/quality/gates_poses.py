@@ -14,7 +14,7 @@ from service.core.quality.evidence import Evidence, Expectation, NamedDetection
 from service.core.quality.gates import Measurement, check_limit, report_value
 from service.core.quality.gates_frame import NAMES_SHOWN, name_some, some_views
 from service.core.vision.camera import project
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, stack_poses
 from service.core.vision.uncertainty import whole_image
 
@@ -27,7 +27,7 @@ def measure_poses(evidence: Evidence) -> tuple[Measurement, ...]:
 
 
 def match_distances(
-    view: NamedDetection, poses: tuple[Pose, ...], expectation: Expectation, target: Chessboard
+    view: NamedDetection, poses: tuple[Pose, ...], expectation: Expectation, target: Target
 ) -> Array:
     """Return the mean distance of the four outer corners, px (m,), of a view to each of m prescribed poses.
 
