@@ -23,7 +23,7 @@ def outer_places(
     outer = np.array(target.outer_corners)
     places = np.full((len(target.object_points), 2), np.nan)
     places[corner_ids] = image_points
-    seen = places[outer]
+    seen: Array = places[outer]
     missing = np.isnan(seen[:, 0])
     if not missing.any():
         return seen

@@ -68,6 +68,11 @@ class AprilGrid:
         return self.spacing * self.tag_m
 
     @property
+    def finest_m(self) -> float:
+        """The side of a cell of a tag, m."""
+        return self.tag_m / CELLS
+
+    @property
     def object_points(self) -> Array:
         """Corners of the tags (rows * columns, 3), m: row by row from the top left, z = 0."""
         x, y = self._places(self.columns), self._places(self.rows)

@@ -57,6 +57,11 @@ class Charuco:
         return f"{self.columns}x{self.rows} ChArUco board"
 
     @property
+    def finest_m(self) -> float:
+        """The side of a cell of a marker, m."""
+        return self.marker_m / (marker_dictionary(self.dictionary).markerSize + 2)
+
+    @property
     def object_points(self) -> Array:
         """Inner corners (rows * columns, 3), m: row by row, z = 0."""
         return grid_points(self.columns, self.rows, self.square_m)
