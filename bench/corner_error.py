@@ -16,7 +16,7 @@ from service.core.errors import ServiceError
 from service.core.planning.pose_space import sample_poses
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 from service.simulator.renderer import prepare
 from service.simulator.scene import production_scene, true_corners
@@ -26,7 +26,7 @@ WINDOWS = (2, 3, 4, 5, 6, 7, 8, 9, 10, 12)
 STOP = (3, 60, 1e-4)
 
 
-def measure_corner_error(camera: Intrinsics, target: Chessboard, count: int, seed: int) -> dict[str, Any]:
+def measure_corner_error(camera: Intrinsics, target: Target, count: int, seed: int) -> dict[str, Any]:
     """Return both rms errors, px (root of the mean squared distance), and their ratio."""
     scene = replace(production_scene(camera, target, seed), noise_grey=NOISE_GREY, blur_px=BLUR_PX)
     prepared, rng = prepare(scene), np.random.default_rng(seed)

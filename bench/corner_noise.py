@@ -23,7 +23,7 @@ from service.core.planning.pose_space import PoseSpace, sample_poses
 from service.core.planning.visibility import measure_visibility
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
-from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.target import Target, parse_target
 from service.core.vision.transforms import Array
 from service.demo.skus import PAPER_SKUS
 from service.demo.virtual_vehicle import nominal_camera
@@ -134,7 +134,7 @@ def _measure(sku: Mapping[str, Any], per_part: int) -> Iterator[Measured]:
 
 
 def _measure_space(
-    prepared: PreparedScene, camera: Intrinsics, target: Chessboard, space: PoseSpace, count: int
+    prepared: PreparedScene, camera: Intrinsics, target: Target, space: PoseSpace, count: int
 ) -> Iterator[Measured]:
     poses = sample_poses(space, camera, target, count, SEED)
     seen = measure_visibility(camera, target, poses.rotations, poses.translations)

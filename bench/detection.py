@@ -19,7 +19,7 @@ from service.core.errors import ServiceError, WrongTarget
 from service.core.planning.pose_space import PoseSpace, sample_poses
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array, Pose
 from service.simulator.renderer import PreparedScene, prepare
 from service.simulator.scene import production_scene, true_corners

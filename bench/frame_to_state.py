@@ -14,7 +14,7 @@ from service.core.guidance.session_view import view
 from service.core.vision.camera import Intrinsics
 from service.core.vision.live_detection import LiveDetection, LiveWorkspace, detect_live
 from service.core.vision.pose import estimate_pose
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Pose
 
 FRAME_S = 0.05

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bench.guided_run import Vehicle
 from bench.opencv_flow import find_with_opencv
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 from service.simulator.novice import Choice, FreeHand, Novice, pose_of_choice, think_of_view
 from service.simulator.shutter import between, take_picture
@@ -32,7 +32,7 @@ class FreehandRun:
 
 def take_freehand(
     vehicle: Vehicle,
-    target: Chessboard,
+    target: Target,
     novice: Novice,
     count: int,
     *,
@@ -68,7 +68,7 @@ def take_freehand(
 
 def _shoot(
     vehicle: Vehicle,
-    target: Chessboard,
+    target: Target,
     hand: FreeHand,
     choice: Choice,
     *,

@@ -19,7 +19,7 @@ from service.core.quality.evidence import Expectation, NamedDetection, Refusal
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.detection import detect_target
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array, Pose
 from service.demo.skus import PAPER_SKUS

@@ -17,7 +17,7 @@ from bench.guidance_rates import empty_frame, random_boards
 from bench.hard_frames import hide_a_part, shot_of
 from bench.timing import Timed, spread
 from service.core.vision.live_detection import LiveWorkspace, detect_live, halve
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 from service.simulator.renderer import PreparedScene
 from service.simulator.scene import true_corners

@@ -21,7 +21,7 @@ from service.core.quality.limits import default_limits
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Pose
 from service.simulator.frame_source import VirtualSource
 from service.simulator.live_renderer import LiveRenderer
@@ -40,7 +40,7 @@ class Guidance:
     """All that guidance knows: the nominal camera, the target, the poses it asks for, and its frame rate."""
 
     nominal: Intrinsics
-    target: Chessboard
+    target: Target
     poses: tuple[Pose, ...]
     frames_per_s: float = 15.0
 

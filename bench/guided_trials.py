@@ -19,7 +19,7 @@ from service.core.guidance.session import GuidanceSettings
 from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import PoseSpace, sample_poses
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.target import Target, parse_target
 from service.core.vision.transforms import Pose, rotation_matrix, rotation_vector
 from service.simulator.operator import Habits, Hand
 
@@ -84,7 +84,7 @@ def random_starts(station: Station, count: int, seed: int) -> list[Pose]:
     ]
 
 
-def upside_down(pose: Pose, target: Chessboard) -> Pose:
+def upside_down(pose: Pose, target: Target) -> Pose:
     """Return the pose of the board turned by 180° in its own plane about its centre."""
     R = pose.rotation @ rotation_matrix(np.array([0.0, 0.0, np.pi]))
     return Pose(rotation_vector(R), pose.rotation @ target.centre + pose.tvec - R @ target.centre)

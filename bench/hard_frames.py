@@ -12,7 +12,8 @@ import numpy as np
 from bench.frame_to_state import Image, Look
 from bench.guidance_rates import judge_one, random_plate
 from bench.timing import Timed, spread
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.simulator.disturbances import add_glare, occlude, put_behind, smear
 from service.simulator.lighting import lens_falloff
@@ -94,7 +95,7 @@ def _before_a_plate(shot: Shot) -> Image:
     return replace(shot.prepared, background=plate).render(shot.pose, shot.rng)
 
 
-def _with_another(target: Chessboard, farther: tuple[float, float], gain: float) -> Draw:
+def _with_another(target: Target, farther: tuple[float, float], gain: float) -> Draw:
     """Another board behind, beside the first, so many times as far away."""
 
     def draw(shot: Shot) -> Image:
@@ -113,10 +114,10 @@ def _with_another(target: Chessboard, farther: tuple[float, float], gain: float)
     return draw
 
 
-def conditions(target: Chessboard) -> Mapping[str, Condition]:
+def conditions(target: Target) -> Mapping[str, Condition]:
     """Return the conditions by name. A part of a board may be too small a part to be told."""
     part = ("partial", "absent")
-    larger = replace(target, columns=target.columns + 2, rows=target.rows + 2)
+    larger = Chessboard(target.columns + 2, target.rows + 2, target.square_m)
     return {
         "plain": Condition(lambda shot: shot.exposed(shot.light)),
         "motion_blurred": Condition(_smeared),

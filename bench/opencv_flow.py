@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 WINDOW = (11, 11)
@@ -28,7 +28,7 @@ class OpencvResult:
     residuals: tuple[Array, ...]
 
 
-def find_with_opencv(image: NDArray[np.uint8], target: Chessboard) -> Array | None:
+def find_with_opencv(image: NDArray[np.uint8], target: Target) -> Array | None:
     """Return the refined corners (n, 2) px of a grey image (h, w), or None where no board was found."""
     found, corners = cv2.findChessboardCorners(image, (target.columns, target.rows), None)
     if not found:
@@ -38,7 +38,7 @@ def find_with_opencv(image: NDArray[np.uint8], target: Chessboard) -> Array | No
 
 
 def calibrate_with_opencv(
-    corners: Sequence[Array], target: Chessboard, image_size: tuple[int, int]
+    corners: Sequence[Array], target: Target, image_size: tuple[int, int]
 ) -> OpencvResult | None:
     """Return OpenCV's calibration from the corners of some views; None where OpenCV gives up."""
     points = target.object_points.astype(np.float32)

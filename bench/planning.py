@@ -21,7 +21,7 @@ from service.core.planning.plan import PoseSet, plan_pose_set
 from service.core.planning.pose_space import Poses, PoseSpace, sample_poses
 from service.core.planning.prediction import predict_accuracy, zone_within
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import stack_poses
 
 LENS1 = Intrinsics.from_parameters(

@@ -16,7 +16,7 @@ from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import PoseSpace
 from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array, Pose
 from service.simulator.scene import clean_scene

@@ -14,7 +14,7 @@ import numpy as np
 
 from service.core.planning.pose_space import Poses, PoseSpace, sample_poses
 from service.core.vision.camera import Intrinsics, project, reach_share, unproject
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import whole_image

@@ -16,7 +16,7 @@ from sqlalchemy.orm import Session
 
 from service.core.guidance.hints import ShownHint
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 
 JsonObject = dict[str, Any]
 
@@ -131,7 +131,7 @@ class FrameSource(Protocol):
         ...
 
 
-FrameSourceMaker = Callable[[Intrinsics, Chessboard, str], FrameSource]
+FrameSourceMaker = Callable[[Intrinsics, Target, str], FrameSource]
 """Makes the source of a run from the SKU's nominal camera, its target and the vehicle's serial."""
 
 
@@ -152,7 +152,7 @@ class BoardMove:
     roll_rad: float = 0.0
 
 
-HeldSourceMaker = Callable[[Intrinsics, Chessboard, str, Callable[[], BoardMove | None]], FrameSource]
+HeldSourceMaker = Callable[[Intrinsics, Target, str, Callable[[], BoardMove | None]], FrameSource]
 """As FrameSourceMaker, of a board that a person moves; the last argument returns the moves since the last
 call."""
 

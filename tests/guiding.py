@@ -14,7 +14,7 @@ from starlette.testclient import WebSocketTestSession
 
 from service.core.guidance.hints import Hint, ShownHint
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.storage.words import Role
 from service.usecases.guide_frames import RawFrame
 from tests.plant import Plant, picture, pose_set
@@ -50,7 +50,7 @@ class Film:
         return pixels(self._shown[sequence])
 
 
-def film(nominal: Intrinsics, target: Chessboard, serial: str) -> Film:
+def film(nominal: Intrinsics, target: Target, serial: str) -> Film:
     """The source of every virtual station of a test."""
     return Film()
 

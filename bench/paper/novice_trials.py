@@ -30,7 +30,7 @@ from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import detect_target
 from service.core.vision.residuals import mean_reprojection_error
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.tolerance import draw_camera
 from service.core.vision.transforms import Array
 from service.simulator.novice import draw_novice
@@ -133,12 +133,12 @@ def _try(task: Task) -> list[dict[str, Any]]:
     return [*rows, _opencv_of(task, first.images, target)]
 
 
-def _freehand_row(task: Task, done: FreehandRun, target: Chessboard) -> dict[str, Any]:
+def _freehand_row(task: Task, done: FreehandRun, target: Target) -> dict[str, Any]:
     extra = {"elapsed_s": done.elapsed_s, "missed": done.missed, "views": len(done.images)}
     return _row(task, FREEHAND, _by_opencv(task, done.corners, target), extra)
 
 
-def _ours_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
+def _ours_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Target) -> dict[str, Any]:
     """Return the row of freehand pictures through our detector and solver."""
     views = [view for image in images if (view := _our_view(image, target)) is not None]
     extra = {"views": len(views)}
@@ -150,7 +150,7 @@ def _ours_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Chessboard
     return _row(task, FREEHAND_OURS, (solved.intrinsics, solved.residuals), extra)
 
 
-def _our_view(image: NDArray[np.uint8], target: Chessboard) -> View | None:
+def _our_view(image: NDArray[np.uint8], target: Target) -> View | None:
     try:
         return View(target.object_points, detect_target(image, target).image_points)
     except ServiceError:
@@ -176,13 +176,13 @@ def _guided_row(task: Task, arm: str, done: GuidedRun, guidance: Guidance) -> di
     return _row(task, arm, (judged.result.intrinsics, judged.result.residuals), extra)
 
 
-def _opencv_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Chessboard) -> dict[str, Any]:
+def _opencv_of(task: Task, images: Sequence[NDArray[np.uint8]], target: Target) -> dict[str, Any]:
     """Return the row of guided pictures through OpenCV's detector and solver."""
     corners = [found for image in images if (found := find_with_opencv(image, target)) is not None]
     return _row(task, GUIDED_OPENCV, _by_opencv(task, corners, target), {"views": len(corners)})
 
 
-def _by_opencv(task: Task, corners: Sequence[Array], target: Chessboard) -> Solved | None:
+def _by_opencv(task: Task, corners: Sequence[Array], target: Target) -> Solved | None:
     solved = calibrate_with_opencv(corners, target, true_camera(task.lens).image_size)
     return None if solved is None else (solved.intrinsics, solved.residuals)
 

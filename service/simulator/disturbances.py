@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.simulator.board import make_plate
 from service.simulator.renderer import PreparedScene
@@ -90,7 +90,7 @@ def perforate(size: tuple[int, int], holes: Holes) -> Array:
     return np.asarray(holes.plate_grey + (holes.hole_grey - holes.plate_grey) * open_share)
 
 
-def put_behind(prepared: PreparedScene, target: Chessboard, pose: Pose, gain: float = 1.0) -> PreparedScene:
+def put_behind(prepared: PreparedScene, target: Target, pose: Pose, gain: float = 1.0) -> PreparedScene:
     """Return the scene with another board in its background, `gain` times as bright as the first."""
     scene = prepared.scene
     other = replace(

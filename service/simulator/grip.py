@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
 NEAREST_M = 0.12  # no hand pushes the board into the camera
@@ -22,7 +22,7 @@ class Grip:
     rotation: Array
     hold: Array
 
-    def pose(self, target: Chessboard) -> Pose:
+    def pose(self, target: Target) -> Pose:
         """Return `T_cam_board` of a target that is held so."""
         return Pose(rotation_vector(self.rotation), self.centre - self.rotation @ target.centre)
 
@@ -47,7 +47,7 @@ class Grip:
         return Grip(centre, self.rotation, self.hold)
 
 
-def grip_of(pose: Pose, target: Chessboard, hold: Array) -> Grip:
+def grip_of(pose: Pose, target: Target, hold: Array) -> Grip:
     """Return the grip that holds a target at `T_cam_board`; hold: (3,) m."""
     R = pose.rotation
     return Grip(R @ target.centre + pose.tvec, R, hold)

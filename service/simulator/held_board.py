@@ -10,7 +10,7 @@ import numpy as np
 
 from service.core.guidance.hints import ShownHint
 from service.core.vision.camera import Intrinsics, project_camera_points
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.ports import BoardMove
 from service.simulator.grip import Grip, grip_of
@@ -48,9 +48,7 @@ class Reach:
 class HeldBoard:
     """A board that is where the moves have brought it; upright before the camera at first."""
 
-    def __init__(
-        self, camera: Intrinsics, target: Chessboard, take_move: Callable[[], BoardMove | None]
-    ) -> None:
+    def __init__(self, camera: Intrinsics, target: Target, take_move: Callable[[], BoardMove | None]) -> None:
         """Take the camera, for what a px of a drag is, and what returns the moves since it was last asked."""
         self._camera, self._target, self._take_move = camera, target, take_move
         self._reach = Reach(camera)

@@ -35,7 +35,8 @@ from typing import Final
 import numpy as np
 
 from service.core.vision.camera import Intrinsics, unproject
-from service.core.vision.target import Chessboard
+from service.core.vision.feature_grid import extent
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.simulator.operator import Habits, Hand
 from service.simulator.scene import clean_scene, project_points
@@ -130,11 +131,12 @@ def choose_view(style: Style, last: Choice | None, rng: np.random.Generator) -> 
     )
 
 
-def pose_of_choice(choice: Choice, camera: Intrinsics, target: Chessboard) -> Pose:
+def pose_of_choice(choice: Choice, camera: Intrinsics, target: Target) -> Pose:
     """Return the pose `T_cam_board` at which a camera shows a board as it was thought of."""
     half = 0.5 * np.array(camera.image_size)
     direction = unproject(camera, half + choice.place * half)
-    width_m = (target.columns - 1) * target.square_m
+    low, high = extent(target.object_points)
+    width_m = float(high[0] - low[0])
     distance = camera.vector[0] * width_m / (choice.width_share * camera.image_size[0])
     ray = direction / np.linalg.norm(direction)
     centre = ray * np.clip(distance, NEAREST_M, FARTHEST_M)
@@ -144,18 +146,18 @@ def pose_of_choice(choice: Choice, camera: Intrinsics, target: Chessboard) -> Po
     return Pose(rotation_vector(R), centre - R @ target.centre)
 
 
-def is_shown_whole(camera: Intrinsics, target: Chessboard, pose: Pose) -> bool:
+def is_shown_whole(camera: Intrinsics, target: Target, pose: Pose) -> bool:
     """Whether a camera shows the board with its outermost squares, as a person sees on a screen."""
-    columns, rows = float(target.columns), float(target.rows)
-    u, v = np.meshgrid(np.linspace(-1.0, columns, 9), np.linspace(-1.0, rows, 7))
-    squares = np.column_stack([u.ravel(), v.ravel(), np.zeros(u.size)])
-    points = project_points(clean_scene(camera, target), pose, squares * target.square_m)
+    (left, top, _), (right, bottom, _) = target.outline[0], target.outline[2]
+    x, y = np.meshgrid(np.linspace(left, right, 9), np.linspace(top, bottom, 7))
+    pattern = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    points = project_points(clean_scene(camera, target), pose, pattern)
     inside = (points >= 0.0) & (points <= np.array(camera.image_size) - 1.0)
     return bool(np.all(inside))
 
 
 def think_of_view(
-    style: Style, last: Choice | None, camera: Intrinsics, target: Chessboard, rng: np.random.Generator
+    style: Style, last: Choice | None, camera: Intrinsics, target: Target, rng: np.random.Generator
 ) -> Choice:
     """Return the next view that the screen shows whole; the last one again where none comes to mind."""
     for _ in range(RETRIES):
@@ -170,7 +172,7 @@ def think_of_view(
 class FreeHand(Hand):
     """The hand of `Hand`, with its pace, inertia and tremor, that goes where its owner wants it to."""
 
-    def __init__(self, target: Chessboard, start: Pose | None = None, habits: Habits | None = None) -> None:
+    def __init__(self, target: Target, start: Pose | None = None, habits: Habits | None = None) -> None:
         """Take the board, the pose to begin with and the habits, as `Hand`."""
         super().__init__(target, start, habits)
         self._wish = self.pose

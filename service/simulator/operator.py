@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from service.core.guidance.hints import Hint, ShownHint
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.simulator.grip import grip_of
 from service.simulator.steering import Steering
@@ -59,7 +59,7 @@ class Habits:
 class Hand:
     """A hand that holds a board and does what it is told."""
 
-    def __init__(self, target: Chessboard, start: Pose | None = None, habits: Habits | None = None) -> None:
+    def __init__(self, target: Target, start: Pose | None = None, habits: Habits | None = None) -> None:
         """Take the board and the pose to begin with: upright before the camera unless another is given."""
         self._target = target
         self._habits = habits or Habits()

@@ -6,7 +6,7 @@ import numpy as np
 
 from service.core.errors import SceneInvalid
 from service.core.vision.camera import Intrinsics, project_camera_points, reach_share
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 
 
@@ -26,7 +26,7 @@ class Scene:
     """
 
     intrinsics: Intrinsics
-    target: Chessboard
+    target: Target
     white_grey: float = 200.0
     dark_grey: float = 35.0
     border_squares: float = 0.6
@@ -64,12 +64,12 @@ class Scene:
             raise SceneInvalid("seed must not be negative.", name="seed")
 
 
-def clean_scene(intrinsics: Intrinsics, target: Chessboard, seed: int = 0) -> Scene:
+def clean_scene(intrinsics: Intrinsics, target: Target, seed: int = 0) -> Scene:
     """Return a scene without noise, without blur beyond the pixel's area, under even light."""
     return Scene(intrinsics, target, seed=seed)
 
 
-def production_scene(intrinsics: Intrinsics, target: Chessboard, seed: int = 0) -> Scene:
+def production_scene(intrinsics: Intrinsics, target: Target, seed: int = 0) -> Scene:
     """Return a scene as a line sees it: near-infrared lamp, a lens's blur, a sensor's noise."""
     return Scene(
         intrinsics, target, falloff=0.35, shading=0.4, blur_px=0.7, noise_grey=2.0, exposure=1.05, seed=seed

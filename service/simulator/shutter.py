@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.simulator.renderer import PreparedScene
 from service.simulator.scene import true_corners
@@ -34,7 +34,7 @@ def take_picture(
     return expose(light / slices, scene, rng)
 
 
-def between(start: Pose, end: Pose, share: float, target: Chessboard) -> Pose:
+def between(start: Pose, end: Pose, share: float, target: Target) -> Pose:
     """Return the pose after a share of the way: the target's centre goes straight, the turn is even."""
     turn = rotation_matrix(share * rotation_vector(end.rotation @ start.rotation.T))
     R = turn @ start.rotation

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.simulator.renderer import PreparedScene
 from service.simulator.scene import Scene, true_corners
@@ -65,9 +65,7 @@ def hold_board(scene: Scene, pose: Pose, mismatch: Mismatch, rng: np.random.Gene
     return pose
 
 
-def _shake(
-    target: Chessboard, pose: Pose, position_m: float, angle_rad: float, rng: np.random.Generator
-) -> Pose:
+def _shake(target: Target, pose: Pose, position_m: float, angle_rad: float, rng: np.random.Generator) -> Pose:
     """Return a pose turned about the target's centre and shifted."""
     turn = rotation_matrix(rng.uniform(-angle_rad, angle_rad, 3))
     R = pose.rotation

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.tolerance import Tolerance, draw_camera
 from service.ports import BoardMove
 from service.simulator.frame_source import VirtualSource, make_virtual_source
@@ -24,14 +24,14 @@ def camera_of_serial(nominal: Intrinsics, serial: str) -> Intrinsics:
     return draw_camera(nominal, Tolerance(), _rng(serial))
 
 
-def source_of_serial(nominal: Intrinsics, target: Chessboard, serial: str) -> VirtualSource:
+def source_of_serial(nominal: Intrinsics, target: Target, serial: str) -> VirtualSource:
     """Return the live camera of a virtual vehicle, with a hand before it; takes a second or two."""
     scene = production_scene(camera_of_serial(nominal, serial), target)
     return make_virtual_source(scene, Hand(target), _rng(f"{serial} hand"))
 
 
 def held_source_of_serial(
-    nominal: Intrinsics, target: Chessboard, serial: str, take_move: Callable[[], BoardMove | None]
+    nominal: Intrinsics, target: Target, serial: str, take_move: Callable[[], BoardMove | None]
 ) -> VirtualSource:
     """Return the live camera of a virtual vehicle, with a board before it that a person moves."""
     camera = camera_of_serial(nominal, serial)

@@ -14,7 +14,7 @@ from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.vision.calibration import check_request
 from service.core.vision.detection import detect_target
 from service.core.vision.residuals import view_rms
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.usecases.images import LARGEST_BYTES, SUFFIXES, decode_image, image_sha256
 from service.usecases.sku_document import Revision
 
@@ -38,14 +38,14 @@ class ImageOutcome:
 class FolderCalibration:
     """The judged calibration of a folder, and what became of each of its images, in their order."""
 
-    target: Chessboard
+    target: Target
     judged: Judged
     images: tuple[ImageOutcome, ...]
 
 
 def calibrate_folder(
     folder: Path,
-    target: Chessboard,
+    target: Target,
     lens: str,
     *,
     fixed: Collection[str] = (),
@@ -101,7 +101,7 @@ def expectation_of(revision: Revision | None) -> Expectation | None:
     )
 
 
-def _observe(path: Path, target: Chessboard) -> NamedDetection | Refusal:
+def _observe(path: Path, target: Target) -> NamedDetection | Refusal:
     try:
         data = _read(path)
         detection = detect_target(decode_image(data, path.name), target)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.errors import BadRequest, PoseUndetermined, WrongImageSize
+from service.core.guidance.guided_target import check_guided
 from service.core.guidance.observation import Observation
 from service.core.guidance.problems import FrameMoved
 from service.core.guidance.session import GuidanceSettings
@@ -92,7 +93,7 @@ class Eye:
         )
 
     def _detect(self, image: Pixels, scale: int) -> LiveDetection:
-        return detect_live(image, self._settings.target, self._workspace, scale=scale)
+        return detect_live(image, check_guided(self._settings.target), self._workspace, scale=scale)
 
 
 def check_size(frame: LiveFrame, image_size: tuple[int, int]) -> None:

@@ -12,6 +12,7 @@ from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, PoseSetNotPublished
+from service.core.guidance.guided_target import check_guided
 from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose, RunState, check_serial
 from service.core.vision.transforms import Pose
@@ -130,7 +131,10 @@ def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -
 
 
 def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
-    """Return a run with its poses and what was captured; raises NotFound, PoseSetNotPublished."""
+    """Return a run with its poses and what was captured.
+
+    Raises NotFound, PoseSetNotPublished, TargetNotGuided.
+    """
     run = get_run(session, run_id)
     pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
     if pose_set is None:
@@ -140,6 +144,8 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
             run=f"/api/v1/runs/{run_id}",
         )
     revision = session.get_one(SkuRevisionRow, run.sku_revision_id)
+    document = SkuDocument.model_validate(revision.document).to_revision()
+    check_guided(document.target)
     query = select(CaptureRow.pose_index).where(CaptureRow.run_id == run_id).order_by(CaptureRow.number)
     return GuidedRun(
         id=run.id,
@@ -147,7 +153,7 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
         sku=_sku_code(session, run),
         number=revision.number,
         purpose=run.purpose,
-        revision=SkuDocument.model_validate(revision.document).to_revision(),
+        revision=document,
         poses=tuple(pose_from_json(pose) for pose in pose_set.poses),
         captured=tuple(index for index in session.scalars(query) if index is not None),
         postponed=read_postponed(session, run_id),

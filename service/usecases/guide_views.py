@@ -16,7 +16,7 @@ from service.core.guidance.session import GuidanceSettings, SessionState
 from service.core.guidance.session_view import view
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.storage.models import MeasurementRow
 from service.usecases.guide_runs import GuidedRun
@@ -66,7 +66,7 @@ class GuidedRunView:
     revision: int
     purpose: Purpose
     image_size: tuple[int, int]
-    board: Chessboard
+    board: Target
     poses: list[WantedPoseView]
     captured: list[int]
     pose_index: int | None
@@ -275,7 +275,7 @@ def view_accuracy(sd: Mapping[str, float] | None) -> AccuracyView | None:
     return AccuracyView(*values) if values and np.all(np.isfinite(values)) else None
 
 
-def view_angles(pose: Pose, target: Chessboard) -> AnglesView:
+def view_angles(pose: Pose, target: Target) -> AnglesView:
     """Return how a board stands: signs as those of `core.guidance.comparison`, all 0 for a frontal one."""
     R = pose.rotation
     normal, along = R[:, 2], R[:, 0]

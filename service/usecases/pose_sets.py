@@ -15,7 +15,7 @@ from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, StateForbids
 from service.core.planning.document import pose_from_dict
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Pose
 from service.ports import JobQueue
 from service.storage.models import JobRow, PoseSetRow, SkuRevisionRow, SkuRow
@@ -246,6 +246,6 @@ def _view(session: Session, row: PoseSetRow) -> PoseSetView:
     )
 
 
-def _pose_view(revision: Revision, target: Chessboard, stored: JsonObject) -> PoseView:
+def _pose_view(revision: Revision, target: Target, stored: JsonObject) -> PoseView:
     corners = outer_corners(revision.intrinsics, target, pose_from_dict(stored))
     return PoseView(stored["rvec"], stored["tvec"], corners.tolist())

@@ -23,7 +23,7 @@ from service.core.planning.fixture import Box
 from service.core.planning.pose_space import PoseSpace
 from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
 from service.core.vision.camera import LENSES, Intrinsics, parameter_names
-from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.target import Target, parse_target
 from service.core.vision.tolerance import Tolerance
 from service.core.vision.uncertainty import Region
 from service.usecases.text import Code, Label
@@ -152,7 +152,7 @@ class Revision:
     code: str
     name: str
     intrinsics: Intrinsics
-    target: Chessboard
+    target: Target
     pose_count: int
     pose_space: PoseSpace
     corner_noise_px: float
@@ -226,7 +226,7 @@ class SkuDocument(Document):
     @field_validator("target")
     @classmethod
     def _target_is_readable(cls, spec: str) -> str:
-        target: Chessboard = parse_or_complain(parse_target, spec)
+        target: Target = parse_or_complain(parse_target, spec)
         return target.spec
 
     @field_validator("limits")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.simulator.frame_source import VirtualSource, make_virtual_source
 from service.simulator.operator import Habits, Hand
 from service.simulator.scene import Scene
@@ -27,7 +27,7 @@ ROUGH = {
 }
 
 
-def true_camera(nominal: Intrinsics, target: Chessboard, serial: str) -> VirtualSource:
+def true_camera(nominal: Intrinsics, target: Target, serial: str) -> VirtualSource:
     """The station's camera is the true one, whatever the SKU believes."""
     scene = Scene(TRUE, target, noise_grey=1.0, blur_px=0.5, clutter=0.2)
     hand = Hand(target, None, Habits(lapses_per_s=0.0))

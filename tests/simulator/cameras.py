@@ -3,7 +3,8 @@
 import numpy as np
 
 from service.core.vision.camera import Intrinsics, unproject
-from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.target import Target
+from service.core.vision.target_chessboard import parse_chessboard
 from service.core.vision.transforms import Pose, compose, rotation_matrix, rotation_vector
 
 LENS_1 = Intrinsics.from_parameters(
@@ -35,7 +36,7 @@ FISHEYE = Intrinsics.from_parameters(
 ALL_ROUND = Intrinsics.from_parameters(
     "kannala_brandt4", {"fx": 80.0, "fy": 80.0, "cx": 128.0, "cy": 80.0, "k1": 0.01}, (256, 160)
 )
-BOARD = parse_target("chessboard:9x6:25mm")
+BOARD = parse_chessboard("chessboard:9x6:25mm")
 
 # Pitch, yaw, roll, degrees; where the target's centre lies, in shares of the picture's size; its depth, m.
 # Near and far, upright and on its side, tilted to 45 degrees, in the middle and towards every corner.
@@ -55,7 +56,7 @@ VARIED = (
 )
 
 
-def centred_pose(target: Chessboard, degrees: tuple[float, ...], centre: tuple[float, ...]) -> Pose:
+def centred_pose(target: Target, degrees: tuple[float, ...], centre: tuple[float, ...]) -> Pose:
     """Return the pose of a target turned by pitch, yaw and roll with its centre at a point, m."""
     turns = np.diag(np.radians(degrees))
     R = rotation_matrix(turns[0]) @ rotation_matrix(turns[1]) @ rotation_matrix(turns[2])

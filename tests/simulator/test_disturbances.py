@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Pose
 from service.simulator.disturbances import Holes, add_glare, occlude, perforate, put_behind, smear
 from service.simulator.renderer import prepare

@@ -5,7 +5,7 @@ import pytest
 
 from service.core.guidance.comparison import compare_pose
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array, Pose
 from service.ports import BoardMove
 from service.simulator.held_board import FARTHEST_M, HeldBoard

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project, project_camera_points
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
 # A board whose x axis points elsewhere by more than this is better turned round than rotated.
@@ -98,7 +98,7 @@ def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
     return Tolerances(corner_px=0.02 * image_size[0], offset_px=30.0 * scale)
 
 
-def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Chessboard) -> PoseDifference:
+def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Target) -> PoseDifference:
     """Return how the seen board must move to reach the expected pose; both poses before the camera."""
     R, R_seen = expected.rotation, seen.rotation
     wanted, found = R @ target.centre + expected.tvec, R_seen @ target.centre + seen.tvec

@@ -36,7 +36,7 @@ from service.core.guidance.comparison import PoseDifference, Tolerances, compare
 from service.core.guidance.hints import Hint, choose_hints
 from service.core.guidance.observation import Observation
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Pose
 
 NOT_SEEN: Final = "not-seen"
@@ -53,7 +53,7 @@ class GuidanceSettings:
     """
 
     intrinsics: Intrinsics
-    target: Chessboard
+    target: Target
     tolerances: Tolerances
     limits: CaptureLimits = field(default_factory=CaptureLimits)
     patience_s: float = 20.0

@@ -17,7 +17,7 @@ from service.core.planning.pose_space import Poses, PoseSpace, infeasibilities
 from service.core.planning.prediction import predict_accuracy, zone_within
 from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, focal_of_view
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Pose, stack_poses
 from service.core.vision.uncertainty import Region
 
@@ -71,7 +71,7 @@ def nominal_of_data_sheet(
 
 def compare_plans(
     estimate: Intrinsics,
-    target: Chessboard,
+    target: Target,
     space: PoseSpace,
     *,
     old: Sequence[Pose],
@@ -101,7 +101,7 @@ def bootstrap(
     nominal: Intrinsics,
     plan: Callable[[Intrinsics], PoseSet],
     take: Callable[[PoseSet], Sequence[View]],
-    target: Chessboard,
+    target: Target,
     space: PoseSpace,
 ) -> tuple[Round, ...]:
     """Return the rounds until the plan holds, MOST_ROUNDS at most; the last one's estimate is the camera.

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from service.core.planning.noise import CornerNoise, noise_at
 from service.core.planning.pose_space import Poses, PoseSpace, sample_visible
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 
@@ -20,7 +20,7 @@ class Candidates:
 
 def sample_candidates(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     space: PoseSpace,
     count: int,
     seed: int,

@@ -12,7 +12,7 @@ import numpy as np
 
 from service.core.errors import PoseSetInfeasible
 from service.core.planning.pose_space import Poses
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 SMALLEST_TILT_SPREAD_DEG: Final = 10.0
@@ -33,7 +33,7 @@ class Diversity:
 
 
 def measure_diversity(
-    poses: Poses, target: Chessboard, image_points: Array, image_size: tuple[int, int]
+    poses: Poses, target: Target, image_points: Array, image_size: tuple[int, int]
 ) -> Diversity:
     """Return how varied m poses are; image_points (m, n, 2) px are their corners."""
     normals = poses.rotations[:, :, 2]

@@ -9,11 +9,11 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
-# A printed plate ends about so far beyond its outermost inner corners: one square and a margin.
-PLATE_MARGIN_SQUARES = 1.6
+# A plate ends about so far beyond what is printed dark on it.
+PLATE_MARGIN_SQUARES = 0.6
 
 
 @dataclass(frozen=True)
@@ -24,16 +24,15 @@ class Box:
     high_m: tuple[float, float, float]
 
 
-def plate_corners(target: Chessboard) -> Array:
+def plate_corners(target: Target) -> Array:
     """Return the four corners (4, 3), m, of the plate in the board frame: tl, tr, br, bl."""
-    low = -PLATE_MARGIN_SQUARES * target.square_m
-    right = (target.columns - 1 + PLATE_MARGIN_SQUARES) * target.square_m
-    bottom = (target.rows - 1 + PLATE_MARGIN_SQUARES) * target.square_m
-    return np.array([(low, low, 0.0), (right, low, 0.0), (right, bottom, 0.0), (low, bottom, 0.0)])
+    outwards = np.array([(-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0)])
+    plate: Array = target.outline + PLATE_MARGIN_SQUARES * target.square_m * outwards
+    return plate
 
 
 def touches_a_box(
-    boxes: tuple[Box, ...], target: Chessboard, rotations: Array, translations: Array
+    boxes: tuple[Box, ...], target: Target, rotations: Array, translations: Array
 ) -> NDArray[np.bool_]:
     """Return which plates (m,), at poses (m, 3, 3), (m, 3), touch any of the boxes."""
     touching = np.zeros(len(translations), dtype=bool)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from service.core.planning.pose_space import Poses
 from service.core.vision.camera import Intrinsics, project, project_with_jacobians, unproject
-from service.core.vision.target import Chessboard
+from service.core.vision.feature_grid import extent
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import Region, compensated_jacobian
 
@@ -69,7 +70,7 @@ class PredictedMap:
     sd_mdeg: Array
 
 
-def measure_coverage(intrinsics: Intrinsics, target: Chessboard, poses: Poses, grid: ImageGrid) -> Coverage:
+def measure_coverage(intrinsics: Intrinsics, target: Target, poses: Poses, grid: ImageGrid) -> Coverage:
     """Return where the corners and boards of m poses are in the image."""
     pixels = project(intrinsics, poses.rotations, poses.translations, target.object_points)
     rays = unproject(intrinsics, grid.centres)
@@ -78,7 +79,7 @@ def measure_coverage(intrinsics: Intrinsics, target: Chessboard, poses: Poses, g
     place = np.linalg.inv(plane) @ rays.T
     with np.errstate(divide="ignore", invalid="ignore"):
         x, y = place[:, 0] / place[:, 2], place[:, 1] / place[:, 2]
-    size = np.array([target.columns - 1, target.rows - 1]) * target.square_m
+    size = np.subtract(*extent(target.object_points)[::-1])
     # Written so that NaN, where the lens does not reach, is outside.
     inside = (place[:, 2] > 0) & (x >= 0) & (x <= size[0]) & (y >= 0) & (y <= size[1])
     boards = inside.sum(axis=0).reshape(grid.rows, grid.columns)

@@ -7,7 +7,7 @@ import numpy as np
 
 from service.core.planning.pose_space import Poses
 from service.core.vision.camera import Intrinsics, project_with_jacobians
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 # Poses per pass: the Jacobians of a 54-corner board then stay within a few megabytes.
@@ -15,7 +15,7 @@ CHUNK = 256
 
 
 def pose_information(
-    intrinsics: Intrinsics, target: Chessboard, poses: Poses, sigma_px: float | Array = 0.1
+    intrinsics: Intrinsics, target: Target, poses: Poses, sigma_px: float | Array = 0.1
 ) -> Array:
     """Return the information Λ (m, p, p) of m poses about the p intrinsics, in px and the lens's units.
 
@@ -32,7 +32,7 @@ def pose_information(
     return np.concatenate(parts)
 
 
-def _unit_information(intrinsics: Intrinsics, target: Chessboard, poses: Poses) -> Array:
+def _unit_information(intrinsics: Intrinsics, target: Target, poses: Poses) -> Array:
     """Return Λ (m, p, p) for a corner noise of 1 px."""
     _, A, B = project_with_jacobians(
         intrinsics.lens, intrinsics.vector, poses.rotations, poses.translations, target.object_points

@@ -11,7 +11,7 @@ import numpy as np
 from service.core.planning.criterion import Criterion
 from service.core.planning.ordering import hand_times
 from service.core.planning.pose_space import Poses
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 
 # In units of the mean information of a pose; before some captures nothing else makes the covariance finite.
@@ -21,7 +21,7 @@ SETTLING_S: Final = 3.0  # that a pose takes beside the way to it
 
 def choose_next_pose(
     poses: Poses,
-    target: Chessboard,
+    target: Target,
     information: Array,
     criterion: Criterion,
     *,
@@ -51,7 +51,7 @@ def information_gains(
     return np.asarray(np.log(before / after), dtype=np.float64)
 
 
-def _ways_s(poses: Poses, target: Chessboard, candidates: Sequence[int], hand: Pose | None) -> Array:
+def _ways_s(poses: Poses, target: Target, candidates: Sequence[int], hand: Pose | None) -> Array:
     """Return the times (k,), s, that a hand needs to the candidates."""
     if hand is None:
         return np.zeros(len(candidates))

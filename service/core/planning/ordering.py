@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from service.core.planning.pose_space import Indices, Poses
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, angle_between
 
 # A person who follows a ghost board, roughly: only the ratio of the two matters for the order.
@@ -23,7 +23,7 @@ SECONDS: Final = 10  # poses that are tried as the second one, the nearest
 TINY_GAIN: Final = 1e-9
 
 
-def order_poses(poses: Poses, target: Chessboard) -> Indices:
+def order_poses(poses: Poses, target: Target) -> Indices:
     """Return the order (m,) in which to take m poses: the least turned one first, then the shortest path."""
     if len(poses) < 2:
         return np.arange(len(poses), dtype=np.int64)
@@ -33,7 +33,7 @@ def order_poses(poses: Poses, target: Chessboard) -> Indices:
     return np.array(path, dtype=np.int64)
 
 
-def hand_times(poses: Poses, target: Chessboard) -> Array:
+def hand_times(poses: Poses, target: Target) -> Array:
     """Return the times (m, m), s, from pose to pose at a hand's speeds: the centre's way plus the turn."""
     centres = poses.centres(target)
     ways = np.linalg.norm(centres[:, None] - centres[None, :], axis=-1)

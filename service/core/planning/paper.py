@@ -20,7 +20,7 @@ from service.core.planning.scoring import paper_score
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, project, unproject
 from service.core.vision.residuals import mean_reprojection_error
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, rotation_matrix
 from service.core.vision.uncertainty import Region
 
@@ -41,7 +41,7 @@ class ScoredSet:
 
 def plan_as_the_paper(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     space: PoseSpace,
     count: int,
     seed: int,
@@ -80,7 +80,7 @@ def plan_as_the_paper(
 
 
 def sample_uniform_poses(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, rng: np.random.Generator
+    space: PoseSpace, intrinsics: Intrinsics, target: Target, count: int, rng: np.random.Generator
 ) -> Poses:
     """Return `count` visible poses: line of sight, distance and angles each uniform at random.
 
@@ -101,7 +101,7 @@ def sample_uniform_poses(
 
 def score_random_sets(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     poses: Poses,
     count: int,
     rng: np.random.Generator,
@@ -125,7 +125,7 @@ def score_random_sets(
 
 
 def calibrate_noisy(
-    intrinsics: Intrinsics, target: Chessboard, pixels: Array, sigma_px: float, rng: np.random.Generator
+    intrinsics: Intrinsics, target: Target, pixels: Array, sigma_px: float, rng: np.random.Generator
 ) -> CalibrationResult | None:
     """Return the calibration from image points (n, c, 2) px plus noise; None where it is impossible."""
     noisy = pixels + rng.normal(0.0, sigma_px, pixels.shape)
@@ -137,7 +137,7 @@ def calibrate_noisy(
 
 
 def _random_poses(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, rng: np.random.Generator
+    space: PoseSpace, intrinsics: Intrinsics, target: Target, count: int, rng: np.random.Generator
 ) -> Poses:
     """Return `count` poses within the bounds of distance and angles, in view or not."""
     pitch, yaw, roll = (

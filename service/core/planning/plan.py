@@ -20,7 +20,7 @@ from service.core.planning.robustness import NOMINAL_ONLY, Robustness, informati
 from service.core.planning.variety import fixed_places, next_place, requirements
 from service.core.planning.visibility import measure_visibility
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.core.vision.uncertainty import GRID, MappingError, Region, compensated_jacobian
 
@@ -66,7 +66,7 @@ class PoseSet:
 
 def plan_pose_set(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     space: PoseSpace,
     count: int,
     seed: int,
@@ -112,7 +112,7 @@ def plan_pose_set(
 
 def describe_set(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     poses: Poses,
     zone: Region,
     *,
@@ -159,7 +159,7 @@ class _Search:
 
     given: Candidates
     information: Array
-    target: Chessboard
+    target: Target
     space: PoseSpace
     image_size: tuple[int, int]
     criterion: Criterion

@@ -21,7 +21,7 @@ from service.core.planning.visibility import (
     place_targets,
 )
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
 Mask = NDArray[np.bool_]
@@ -29,6 +29,7 @@ Indices = NDArray[np.int64]
 
 SMALLEST_SHARE: Final = 0.02
 SMALLEST_BATCH: Final = 512
+FINEST_PX: Final = 3.0  # of a marker's cell, for it to be read
 
 REMEDIES: Mapping[str, str] = {
     "image_margin_px": "boards do not fit into the image: allow a larger distance_m, less tilt, a smaller "
@@ -53,10 +54,11 @@ class PoseSpace:
     distance_m: of the target's centre from the camera. yaw_deg, pitch_deg, roll_deg: turn about the
     camera's y axis, then the board's x axis, then the board's normal; all zero is a board that faces along
     the optical axis. image_margin_px: least distance of every corner from the image border.
-    smallest_square_px: shortest side of a square in the image. largest_incidence_deg: between the board's
-    normal and the line of sight to any corner. separation_px: least mean corner distance between two poses
-    of a set. depth_of_field_m: nearest and farthest depth of any corner at which the picture is sharp; None:
-    everywhere. excluded_boxes: room that the fixture takes.
+    smallest_square_px: shortest side of a square in the image; of a coded board at least so long that a cell
+    of its markers has 3 px. largest_incidence_deg: between the board's normal and the line of sight to any
+    corner. separation_px: least mean corner distance between two poses of a set. depth_of_field_m: nearest
+    and farthest depth of any corner at which the picture is sharp; None: everywhere. excluded_boxes: room
+    that the fixture takes.
     """
 
     distance_m: tuple[float, float] = (0.25, 1.0)
@@ -88,7 +90,7 @@ class Poses:
         """Return the i-th pose."""
         return Pose(rotation_vector(self.rotations[i]), np.array(self.translations[i]))
 
-    def centres(self, target: Chessboard) -> Array:
+    def centres(self, target: Target) -> Array:
         """Return the positions (m, 3), m, of the target's centre in the camera frame."""
         return self.rotations @ target.centre + self.translations
 
@@ -98,9 +100,7 @@ class Poses:
         return angles
 
 
-def sample_poses(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, seed: int
-) -> Poses:
+def sample_poses(space: PoseSpace, intrinsics: Intrinsics, target: Target, count: int, seed: int) -> Poses:
     """Return `count` feasible poses of a scrambled Halton sequence; the same seed gives the same poses.
 
     Distance and angles are spread evenly over their bounds, and boards over all places of the image where one
@@ -111,7 +111,7 @@ def sample_poses(
 
 
 def sample_visible(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, count: int, seed: int
+    space: PoseSpace, intrinsics: Intrinsics, target: Target, count: int, seed: int
 ) -> tuple[Poses, Visibility]:
     """Return the poses of `sample_poses` with what they look like."""
     check_pose_space(space)
@@ -138,24 +138,29 @@ def sample_visible(
 
 
 def infeasibilities(
-    space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, poses: Poses
+    space: PoseSpace, intrinsics: Intrinsics, target: Target, poses: Poses
 ) -> dict[str, Mask]:
     """Return, for each bound by name, which of the m poses break it: masks (m,)."""
     seen = measure_visibility(intrinsics, target, poses.rotations, poses.translations)
     return _failures(space, target, poses, seen)
 
 
-def _failures(space: PoseSpace, target: Chessboard, poses: Poses, seen: Visibility) -> dict[str, Mask]:
+def _failures(space: PoseSpace, target: Target, poses: Poses, seen: Visibility) -> dict[str, Mask]:
     near, far = space.depth_of_field_m or (0.0, np.inf)
     # Written as "not within", so that NaN (behind the camera, does not fit) breaks the bound.
     return {
         "image_margin_px": ~(seen.clearance_px >= space.image_margin_px),
-        "smallest_square_px": seen.smallest_square_px < space.smallest_square_px,
+        "smallest_square_px": seen.smallest_square_px < _least_square_px(space, target),
         "largest_incidence_deg": seen.incidence_rad > np.deg2rad(space.largest_incidence_deg),
         "depth_of_field_m": ~((seen.nearest_m >= near) & (seen.farthest_m <= far)),
         "excluded_boxes": touches_a_box(space.excluded_boxes, target, poses.rotations, poses.translations),
         "lens": (seen.lens_share > LENS_SHARE) | (seen.aside_rad > FARTHEST_ASIDE_RAD),
     }
+
+
+def _least_square_px(space: PoseSpace, target: Target) -> float:
+    """Return the shortest side of a square that is allowed: as the space says, and what a marker needs."""
+    return max(space.smallest_square_px, FINEST_PX * target.square_m / target.finest_m)
 
 
 def check_pose_space(space: PoseSpace) -> PoseSpace:
@@ -177,7 +182,7 @@ def check_pose_space(space: PoseSpace) -> PoseSpace:
     return space
 
 
-def _poses_of_unit_cube(space: PoseSpace, intrinsics: Intrinsics, target: Chessboard, cube: Array) -> Poses:
+def _poses_of_unit_cube(space: PoseSpace, intrinsics: Intrinsics, target: Target, cube: Array) -> Poses:
     """Return the poses of points (m, 6) in 0…1: place in the image (2), distance, pitch, yaw, roll."""
     bounds = np.array([space.distance_m, space.pitch_deg, space.yaw_deg, space.roll_deg])
     values = bounds[:, 0] + cube[:, 2:] * (bounds[:, 1] - bounds[:, 0])

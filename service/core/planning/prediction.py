@@ -10,7 +10,7 @@ from service.core.planning.information import pose_information
 from service.core.planning.pose_space import Indices, Poses
 from service.core.planning.scoring import condition_number, expected_covariance
 from service.core.vision.camera import Intrinsics, parameter_names
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import MappingError, Region, mapping_error
 
@@ -31,7 +31,7 @@ class Prediction:
 
 def predict_accuracy(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     poses: Poses,
     sigma_px: float | Array,
     zone: Region,

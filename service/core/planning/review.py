@@ -12,7 +12,8 @@ from service.core.planning.pose_space import Indices, Poses
 from service.core.planning.scoring import LARGEST_CONDITION, condition_number, expected_covariance
 from service.core.planning.visibility import measure_visibility
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.feature_grid import extent
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 # Points of the outline per square: enough for a lens to bend a side visibly.
@@ -27,8 +28,7 @@ class PoseReview:
     the camera. tilt_deg: between the board's normal and the optical axis. pitch_deg, yaw_deg, roll_deg: as
     the pose space names them, R = R_y(yaw) R_x(pitch) R_z(roll). outline_px: (k, 2) the image of the line
     around the outermost corners, which bends with the lens; the last point joins the first.
-    plate_corners_m: (4, 3) corners of the printed pattern, one square beyond the outermost corners, in the
-    order of `Chessboard.outer_corners`.
+    plate_corners_m: (4, 3) corners of the printed pattern, in the order of `Target.outer_corners`.
     """
 
     centre_m: Array
@@ -43,13 +43,13 @@ class PoseReview:
     smallest_square_px: float
 
 
-def review_poses(intrinsics: Intrinsics, target: Chessboard, poses: Poses) -> list[PoseReview]:
+def review_poses(intrinsics: Intrinsics, target: Target, poses: Poses) -> list[PoseReview]:
     """Return what each of m poses is, in their order."""
     R = poses.rotations
     centres = poses.centres(target)
     seen = measure_visibility(intrinsics, target, R, poses.translations)
     outlines = project(intrinsics, R, poses.translations, outline_points(target))
-    plates = plate_corners(target) @ np.swapaxes(R, 1, 2) + poses.translations[:, None, :]
+    plates = target.outline @ np.swapaxes(R, 1, 2) + poses.translations[:, None, :]
     angles = pitch_yaw_roll(R)
     tilts = np.arccos(np.clip(R[:, 2, 2], -1.0, 1.0))
     return [
@@ -78,20 +78,14 @@ def pitch_yaw_roll(rotations: Array) -> Array:
     return np.stack([pitch, yaw, roll], axis=-1)
 
 
-def outline_points(target: Chessboard) -> Array:
-    """Return points (k, 3), m, of the board around its outermost corners, clockwise from corner 0."""
-    width, height = target.columns - 1, target.rows - 1
-    across, down = (np.arange(OUTLINE_STEPS * n) / OUTLINE_STEPS for n in (width, height))
-    x = np.concatenate([across, np.full(len(down), width), width - across, np.zeros(len(down))])
-    y = np.concatenate([np.zeros(len(across)), down, np.full(len(across), height), height - down])
-    return np.stack([x, y, np.zeros(len(x))], axis=-1) * target.square_m
-
-
-def plate_corners(target: Chessboard) -> Array:
-    """Return the corners (4, 3), m, of the printed pattern: one square beyond the outermost corners."""
-    columns, rows = target.columns, target.rows
-    corners = [[-1, -1, 0], [columns, -1, 0], [columns, rows, 0], [-1, rows, 0]]
-    return np.array(corners, dtype=np.float64) * target.square_m
+def outline_points(target: Target) -> Array:
+    """Return points (k, 3), m, of the board around its outermost features, clockwise from feature 0."""
+    low, high = extent(target.object_points)
+    width, height = (round(side / target.square_m) for side in high - low)
+    across, down = (np.arange(OUTLINE_STEPS * n) / (OUTLINE_STEPS * n) for n in (width, height))
+    x = np.concatenate([across, np.ones(len(down)), 1.0 - across, np.zeros(len(down))])
+    y = np.concatenate([np.zeros(len(across)), down, np.ones(len(across)), 1.0 - down])
+    return np.stack([x * (high - low)[0], y * (high - low)[1], np.zeros(len(x))], axis=-1)
 
 
 def losses_without(information: Array, metric: Array, free: Indices) -> list[float | None]:

@@ -13,7 +13,7 @@ from service.core.planning.candidates import Candidates
 from service.core.planning.information import pose_information
 from service.core.planning.pose_space import Poses
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array, rotation_matrix
 
@@ -49,7 +49,7 @@ NOMINAL_ONLY: Final = Robustness(draws=1)
 
 def information_by_draw(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     given: Candidates,
     *,
     robustness: Robustness,
@@ -64,9 +64,7 @@ def information_by_draw(
     return np.stack(draws)
 
 
-def _held(
-    camera: Intrinsics, target: Chessboard, poses: Poses, slack: Slack, rng: np.random.Generator
-) -> Poses:
+def _held(camera: Intrinsics, target: Target, poses: Poses, slack: Slack, rng: np.random.Generator) -> Poses:
     """Return the poses as hands hold them."""
     m = len(poses)
     turns = rotation_matrix(rng.uniform(-slack.angle_rad, slack.angle_rad, (m, 3)))

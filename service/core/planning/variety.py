@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from service.core.planning.pose_space import Mask, Poses, PoseSpace
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 # A board turned by no more than this is one that anyone can hit at the first try.
@@ -38,7 +38,7 @@ class Requirement:
         return max(0, self.least - int(np.count_nonzero(self.mask[list(chosen)])))
 
 
-def fixed_places(poses: Poses, target: Chessboard, space: PoseSpace, count: int) -> list[Mask]:
+def fixed_places(poses: Poses, target: Target, space: PoseSpace, count: int) -> list[Mask]:
     """Return which candidates (m,) may take the first places of a set: one easy pose, then some far ones.
 
     On paper every board is best as near as it may come; the camera works over the whole range. A range that

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project, reach_share, unproject
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 # So many rounds place a board to a fraction of a pixel, for which the slack is left; a wide lens needs them
@@ -75,7 +75,7 @@ class Visibility:
 
 
 def measure_visibility(
-    intrinsics: Intrinsics, target: Chessboard, rotations: Array, translations: Array
+    intrinsics: Intrinsics, target: Target, rotations: Array, translations: Array
 ) -> Visibility:
     """Return what poses (m, 3, 3), (m, 3) look like to a camera."""
     points = target.object_points @ np.swapaxes(rotations, -1, -2) + translations[:, None, :]
@@ -99,7 +99,7 @@ def measure_visibility(
 
 def place_targets(
     intrinsics: Intrinsics,
-    target: Chessboard,
+    target: Target,
     rotations: Array,
     distances: Array,
     *,
@@ -128,7 +128,7 @@ def place_targets(
 
 
 def _translations(
-    intrinsics: Intrinsics, target: Chessboard, rotations: Array, distances: Array, centre_px: Array
+    intrinsics: Intrinsics, target: Target, rotations: Array, distances: Array, centre_px: Array
 ) -> Array:
     """Return translations (m, 3) of targets whose centres lie on the rays of pixels (m, 2)."""
     rays = unproject(intrinsics, centre_px)
@@ -137,7 +137,7 @@ def _translations(
     return translations
 
 
-def _shortest_side(pixels: Array, target: Chessboard) -> Array:
+def _shortest_side(pixels: Array, target: Target) -> Array:
     """Return the shortest distance (m,) between neighbouring corners of image points (m, n, 2)."""
     grid = pixels.reshape(-1, target.rows, target.columns, 2)
     along_rows = np.linalg.norm(np.diff(grid, axis=2), axis=-1).min(axis=(1, 2))

@@ -10,7 +10,7 @@ from service.core.quality.limits import Limits
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.core.vision.uncertainty import Region
 
@@ -60,7 +60,7 @@ class Evidence:
     working_grid, valid_grid: (m, 2) px, points of the zones over which mapping errors are taken.
     """
 
-    target: Chessboard
+    target: Target
     views: tuple[NamedDetection, ...]
     refused: tuple[Refusal, ...]
     result: CalibrationResult

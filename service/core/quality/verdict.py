@@ -27,7 +27,7 @@ from service.core.quality.gates_sharpness import measure_sharpness
 from service.core.quality.limits import Limits, default_limits
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
 from service.core.vision.residuals import mean_reprojection_error
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import MappingError, mapping_error
 
@@ -61,7 +61,7 @@ class Judged:
 
 def calibrate_and_judge(
     detections: Sequence[NamedDetection],
-    target: Chessboard,
+    target: Target,
     lens: str = "pinhole5",
     expectation: Expectation | None = None,
     *,
@@ -135,7 +135,7 @@ def _judge(evidence: Evidence) -> Judged:
     )
 
 
-def _solver_views(views: Sequence[NamedDetection], target: Chessboard) -> list[View]:
+def _solver_views(views: Sequence[NamedDetection], target: Target) -> list[View]:
     points = target.object_points
     return [View(points[v.detection.corner_ids], v.detection.image_points, v.name) for v in views]
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from service.core.errors import TargetNotVisible, WrongTarget
 from service.core.vision.corner_grid import CornerGrid
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 
 DWARFED = 0.2  # of the largest grid in area times corners

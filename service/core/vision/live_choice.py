@@ -14,7 +14,7 @@ from service.core.vision.board import is_larger, nearest_whole, prominent_grids
 from service.core.vision.corner_grid import CornerGrid
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines
 from service.core.vision.sampling import sample_bilinear
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 
 MIDWAY = 0.2  # of the contrast, from the middle of dark and bright to the level at a corner

@@ -23,7 +23,7 @@ from service.core.vision.live_look import measure_look
 from service.core.vision.outer_lines import whole_lines, without_rims
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 
 __all__ = ["BoardKind", "LiveDetection", "LiveWorkspace", "detect_live"]

@@ -13,14 +13,14 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from service.core.vision.target import Chessboard
+from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
 PATCH = 3
 UNKNOWNS = 8  # of a homography
 
 
-def residual_grid(values: Array, corner_ids: NDArray[np.int64], target: Chessboard) -> Array:
+def residual_grid(values: Array, corner_ids: NDArray[np.int64], target: Target) -> Array:
     """Return (n, 2) values of some corners by row and column: (rows, columns, 2), NaN where there is none."""
     grid = np.full((target.rows * target.columns, 2), np.nan)
     grid[corner_ids] = values

@@ -1,75 +1,112 @@
-"""What a target looks like: its pattern, its corners in metres, and the words that describe it.
+"""What a target is to the rest of the house, and the words that name one.
 
-The chessboard's frame: origin at corner 0, x along the columns, y along the rows, z away from the camera when
-the board is upright and faces it. The square that lies diagonally outside corner 0 is dark; on a board with
-an odd and an even number of corners this fixes the order, whichever way up the board is held.
+The board's frame: origin at feature 0, x along the rows of features, y from row to row, z away from the
+camera when the board is upright and faces it. Features lie on z = 0, row by row.
+A kind of target is one file (`target_*.py`) and one line in `KINDS`; its detector is one line in
+`detection.DETECTORS`. Not here: how a kind is found in an image.
 """
 
-import re
-from dataclasses import dataclass
-
-import numpy as np
+from collections.abc import Callable, Mapping
+from typing import Protocol
 
 from service.core.errors import TargetSpecInvalid
+from service.core.vision import target_aprilgrid, target_charuco, target_chessboard, target_circles
+from service.core.vision.printed import Shape
 from service.core.vision.transforms import Array
 
-PATTERN = re.compile(r"chessboard:(\d{1,2})x(\d{1,2})(?::(\d+(?:\.\d+)?)mm)?")
 
-
-@dataclass(frozen=True)
-class Chessboard:
-    """A chessboard by its inner corners (columns x rows) and the side of one square, m."""
-
-    columns: int
-    rows: int
-    square_m: float
+class Target(Protocol):
+    """A flat pattern of known features: corners or the centres of dots."""
 
     @property
-    def object_points(self) -> Array:
-        """Corners (rows * columns, 3), m: row by row, z = 0."""
-        grid = np.zeros((self.rows * self.columns, 3))
-        grid[:, 0] = np.tile(np.arange(self.columns), self.rows) * self.square_m
-        grid[:, 1] = np.repeat(np.arange(self.rows), self.columns) * self.square_m
-        return grid
-
-    @property
-    def centre(self) -> Array:
-        """The middle of the corners (3,), m."""
-        return np.array([(self.columns - 1) / 2, (self.rows - 1) / 2, 0.0]) * self.square_m
-
-    @property
-    def outer_corners(self) -> tuple[int, int, int, int]:
-        """Indices of the four outermost corners: top left, top right, bottom right, bottom left."""
-        last = self.rows * self.columns - 1
-        return 0, self.columns - 1, last, last - self.columns + 1
-
-    @property
-    def is_symmetric(self) -> bool:
-        """Whether the pattern looks the same turned by 180 degrees: the order of corners is a choice then."""
-        return (self.columns + self.rows) % 2 == 0
+    def kind(self) -> str:
+        """The first word of its spec."""
+        ...
 
     @property
     def spec(self) -> str:
         """The words that `parse_target` reads."""
-        return f"chessboard:{self.columns}x{self.rows}:{self.square_m * 1000:g}mm"
+        ...
+
+    @property
+    def name(self) -> str:
+        """What messages call it, such as `9x6 chessboard`."""
+        ...
+
+    @property
+    def columns(self) -> int:
+        """Features in a row."""
+        ...
+
+    @property
+    def rows(self) -> int:
+        """Rows of features."""
+        ...
+
+    @property
+    def square_m(self) -> float:
+        """The measure that its spec is scaled by: the side of a square, of circles the grid's step."""
+        ...
+
+    @property
+    def finest_m(self) -> float:
+        """The side of the smallest thing that must be told apart in an image: a square, a cell, a dot."""
+        ...
+
+    @property
+    def object_points(self) -> Array:
+        """Features (rows * columns, 3), m: row by row, z = 0."""
+        ...
+
+    @property
+    def centre(self) -> Array:
+        """The middle of the features (3,), m."""
+        ...
+
+    @property
+    def outer_corners(self) -> tuple[int, int, int, int]:
+        """Indices of the four outermost features: top left, top right, bottom right, bottom left."""
+        ...
+
+    @property
+    def outline(self) -> Array:
+        """Corners (4, 3), m, of the rectangle around all that is printed dark, in the order of the above."""
+        ...
+
+    @property
+    def is_coded(self) -> bool:
+        """Whether features can be told apart, so that a part of the board is enough."""
+        ...
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether the pattern looks the same turned by 180 degrees: the order is a choice then."""
+        ...
+
+    def shapes(self) -> tuple[Shape, ...]:
+        """Return the print: dark shapes on white, m, which touch but do not overlap."""
+        ...
 
 
-def parse_target(spec: str) -> Chessboard:
-    """Return the target of words such as `chessboard:9x6:25mm` (inner corners; 1 m squares if no size).
+KINDS: Mapping[str, Callable[[str], Target]] = {
+    target_chessboard.KIND: target_chessboard.parse_chessboard,
+    target_charuco.KIND: target_charuco.parse_charuco,
+    target_aprilgrid.KIND: target_aprilgrid.parse_aprilgrid,
+    target_circles.KIND: target_circles.parse_circles,
+}
 
-    Raises TargetSpecInvalid when it does not follow the pattern or the board is smaller than 3x3.
+
+def parse_target(spec: str) -> Target:
+    """Return the target of words such as `chessboard:9x6:25mm`.
+
+    Raises TargetSpecInvalid when the kind is unknown or the words do not follow its pattern.
     """
-    match = PATTERN.fullmatch(spec.strip())
-    if match is None:
+    words = spec.strip()
+    parse = KINDS.get(words.partition(":")[0])
+    if parse is None:
         raise TargetSpecInvalid(
-            f"'{spec}' is not a target; write chessboard:COLUMNSxROWS:SIZEmm with inner corners, "
-            "for example chessboard:9x6:25mm.",
+            f"'{spec}' is not a target; write one such as chessboard:9x6:25mm, "
+            "charuco:11x8:25mm:18mm:4x4_250, aprilgrid:6x6:24mm:0.3 or circles:4x11:20mm:10mm.",
             spec=spec,
         )
-    columns, rows = int(match[1]), int(match[2])
-    square_m = float(match[3]) / 1000 if match[3] else 1.0
-    if min(columns, rows) < 3 or square_m <= 0:
-        raise TargetSpecInvalid(
-            "A chessboard needs at least 3x3 inner corners and squares larger than 0 mm.", spec=spec
-        )
-    return Chessboard(columns, rows, square_m)
+    return parse(words)

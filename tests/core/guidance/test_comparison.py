@@ -8,7 +8,7 @@ from service.core.guidance.comparison import (
     match_share,
 )
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
 TARGET = Chessboard(9, 6, 0.025)

@@ -22,7 +22,7 @@ from service.core.guidance.observation import Observation
 from service.core.guidance.session import GuidanceSettings, SessionState, start_session, step
 from service.core.guidance.session_view import view
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Pose
 
 TARGET = Chessboard(9, 6, 0.025)

@@ -1,7 +1,7 @@
 """The paper's two cameras and its board, for the tests of planning."""
 
 from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 
 LENS1 = Intrinsics.from_parameters(
     "pinhole5",

@@ -6,7 +6,7 @@ import pytest
 from service.core.errors import PoseSpaceEmpty
 from service.core.planning.pose_space import Poses, PoseSpace, infeasibilities, sample_poses
 from service.core.vision.camera import Intrinsics, project
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 from tests.core.planning.cameras import BOARD, LENS1, LENS2
 

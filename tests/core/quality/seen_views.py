@@ -13,7 +13,7 @@ from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.detection import Detection
 from service.core.vision.sharpness import Sharpness
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array, Pose
 
 NOMINAL = Intrinsics.from_parameters(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from service.core.vision.camera import Intrinsics, project, reach_share, unproject
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array, rotation_matrix
 from service.core.vision.view_stack import View
 

@@ -3,7 +3,7 @@ import pytest
 
 from service.core.vision.board import is_larger, is_whole, order_corners, prominent_grids
 from service.core.vision.corner_grid import CornerGrid
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 
 
 def grid_of(rows: int, columns: int, phase: int = 0, step: float = 10.0) -> CornerGrid:

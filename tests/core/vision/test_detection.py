@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from service.core.errors import TargetNotVisible, Unprocessable, WrongTarget
 from service.core.vision.detection import Detection, detect_target
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 from tests.core.vision.drawn_board import Image, blur, draw_board, to_image
 

@@ -10,7 +10,7 @@ import pytest
 from service.core.errors import TargetNotVisible, WrongTarget
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
 from service.core.vision.detection import Detection, detect_target
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from tests.core.vision.drawn_board import Image
 
 DATA = Path(__file__).parents[4] / "shared" / "data"

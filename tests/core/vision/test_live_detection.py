@@ -6,7 +6,7 @@ import pytest
 from service.core.errors import Unprocessable
 from service.core.vision.live_detection import LiveDetection, LiveWorkspace, detect_live
 from service.core.vision.sharpness import measure_sharpness
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 from tests.core.vision.drawn_board import DrawnBoard, Image, blur, draw_board, to_image
 

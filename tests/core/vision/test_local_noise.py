@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from service.core.vision.local_noise import local_sigma, neighbour_correlation, residual_grid
-from service.core.vision.target import Chessboard
+from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 
 BOARD = Chessboard(9, 6, 0.025)

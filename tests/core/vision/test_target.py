@@ -1,63 +1,73 @@
-"""Chessboards and the words that describe them."""
+"""What holds for every kind of target."""
 
+import cv2
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from service.core.errors import TargetSpecInvalid
-from service.core.vision.target import Chessboard, parse_target
+from service.core.vision.feature_grid import extent
+from service.core.vision.target import KINDS, Target, parse_target
+from tests.core.vision.printed_board import paint_print
 
-boards = st.builds(
-    Chessboard, st.integers(3, 40), st.integers(3, 40), st.integers(1, 200).map(lambda mm: mm / 1000)
+SPECS = (
+    "chessboard:9x6:25mm",
+    "charuco:11x8:25mm:18mm:4x4_250",
+    "aprilgrid:6x5:24mm:0.3",
+    "circles:4x11:20mm:10mm",
 )
 
 
-@given(boards)
-def test_a_board_comes_back_from_its_words(board: Chessboard) -> None:
-    again = parse_target(board.spec)
-    assert (again.columns, again.rows) == (board.columns, board.rows)
-    assert again.square_m == pytest.approx(board.square_m)
+@pytest.fixture(params=SPECS, name="target")
+def each_target(request: pytest.FixtureRequest) -> Target:
+    return parse_target(request.param)
 
 
-def test_corners_run_row_by_row_from_the_origin() -> None:
-    points = Chessboard(9, 6, 0.025).object_points
-    assert points.shape == (54, 3)
-    np.testing.assert_allclose(
-        points[[0, 1, 9, 53]], np.array([[0, 0, 0], [0.025, 0, 0], [0, 0.025, 0], [0.2, 0.125, 0]])
-    )
+def test_every_kind_has_an_example_here() -> None:
+    assert {spec.partition(":")[0] for spec in SPECS} == set(KINDS)
 
 
-def test_the_outer_corners_run_round_the_board_and_its_centre_is_their_mean() -> None:
-    board = Chessboard(9, 6, 0.025)
-    outer = board.object_points[list(board.outer_corners)]
-    np.testing.assert_allclose(outer[:, :2], np.array([[0, 0], [0.2, 0], [0.2, 0.125], [0, 0.125]]))
-    np.testing.assert_allclose(outer.mean(axis=0), board.centre)
+def test_a_target_comes_back_from_its_words(target: Target) -> None:
+    assert target.spec in SPECS
+    assert parse_target(target.spec) == target
+    assert target.spec.startswith(target.kind + ":")
 
 
-def test_a_board_without_a_size_has_squares_of_one_metre() -> None:
-    assert parse_target("chessboard:9x6") == Chessboard(9, 6, 1.0)
+def test_features_run_row_by_row_from_the_origin(target: Target) -> None:
+    points = target.object_points
+    assert points.shape == (target.rows * target.columns, 3)
+    np.testing.assert_array_equal(points[0], 0.0)
+    assert np.all(points[:, 2] == 0.0)
+    grid = points.reshape(target.rows, target.columns, 3)
+    assert np.all(np.diff(grid[..., 0], axis=1) > 0)
+    assert np.all(np.diff(grid[..., 1], axis=0) > 0)
 
 
-@pytest.mark.parametrize(("columns", "rows", "symmetric"), [(9, 6, False), (8, 6, True), (7, 5, True)])
-def test_a_board_is_symmetric_when_both_counts_are_odd_or_both_even(
-    columns: int, rows: int, symmetric: bool
-) -> None:
-    assert Chessboard(columns, rows, 0.025).is_symmetric is symmetric
+def test_the_outer_features_are_in_the_corners_and_the_centre_between_them(target: Target) -> None:
+    low, high = extent(target.object_points)
+    np.testing.assert_allclose(target.centre[:2], (low + high) / 2)
+    outer = target.object_points[list(target.outer_corners), :2] - target.centre[:2]
+    np.testing.assert_array_equal(np.sign(outer), [[-1, -1], [1, -1], [1, 1], [-1, 1]])
 
 
-@pytest.mark.parametrize(
-    "spec",
-    [
-        "",
-        "9x6",
-        "chessboard:9",
-        "chessboard:2x6:25mm",
-        "chessboard:9x6:0mm",
-        "chessboard:9x6:25",
-        "circles:9x6",
-    ],
-)
-def test_words_that_are_no_target_say_what_to_write(spec: str) -> None:
-    with pytest.raises(TargetSpecInvalid, match="chessboard"):
+def test_the_outline_is_just_around_the_print(target: Target) -> None:
+    picture, origin, scale = paint_print(target, px_per_m=4000, border_m=0.01)
+    dark_y, dark_x = np.nonzero(picture < 128)
+    left, top = origin[0] + (dark_x.min() - 0.5) / scale, origin[1] + (dark_y.min() - 0.5) / scale
+    right, bottom = origin[0] + (dark_x.max() + 0.5) / scale, origin[1] + (dark_y.max() + 0.5) / scale
+    np.testing.assert_allclose([left, top], target.outline[0, :2], atol=1.5 / scale)
+    np.testing.assert_allclose([right, bottom], target.outline[2, :2], atol=1.5 / scale)
+
+
+def test_a_target_turned_by_half_looks_the_same_if_it_is_symmetric(target: Target) -> None:
+    picture, _, _ = paint_print(target, px_per_m=2000, border_m=0.01)
+    turned = cv2.rotate(picture, cv2.ROTATE_180)
+    differs = np.mean(np.abs(picture.astype(float) - turned) > 128)
+    assert bool(differs < 0.01) is target.is_symmetric
+
+
+@pytest.mark.parametrize("spec", ["", "9x6", "triangles:9x6:25mm", "chessboard", "Charuco:11x8"])
+def test_words_that_name_no_kind_show_an_example_of_each(spec: str) -> None:
+    with pytest.raises(TargetSpecInvalid) as refused:
         parse_target(spec)
+    if ":" in spec or not spec.startswith("chess"):
+        assert all(kind in refused.value.detail for kind in KINDS)
