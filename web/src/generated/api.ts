@@ -491,6 +491,24 @@ export interface Problem {
   errors?: FieldError[] | null;
 }
 
+/** A public key that certificates were signed with (RFC 8037). */
+export interface PublicKey {
+  kty: "OKP";
+  crv: "Ed25519";
+  /** The key, base64url. */
+  x: string;
+  /** Its id: the thumbprint of RFC 7638. */
+  kid: string;
+  alg: "EdDSA";
+  use: "sig";
+}
+
+/** A JSON Web Key Set (RFC 7517). */
+export interface PublicKeys {
+  /** The one that signs now first, then those before it. */
+  keys: PublicKey[];
+}
+
 /** Life of a SKU revision or a pose set; once published it never changes. */
 export type Publication = "draft" | "published" | "retired";
 
