@@ -12,6 +12,7 @@ from service.api.problems import install_problem_handlers
 from service.api.rest import (
     captures,
     certificates,
+    exports,
     health,
     jobs,
     keys,
@@ -56,6 +57,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
         runs,
         results,
         certificates,
+        exports,
         vehicles,
         skus,
         pose_sets,

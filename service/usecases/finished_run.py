@@ -21,6 +21,7 @@ from service.core.vision.transforms import Array
 from service.storage.models import (
     CalibrationRow,
     CaptureRow,
+    CertificateRow,
     MeasurementRow,
     RunRow,
     SkuRevisionRow,
@@ -85,13 +86,17 @@ class ImageOfRun:
 
 @dataclass(frozen=True)
 class FinishedRun:
-    """One finished run with all that is stored of it; `document` is the result as it was stored."""
+    """One finished run with all that is stored of it; `document` is the result as it was stored.
+
+    signed_by: the id of the key of its certificate, None before it has one.
+    """
 
     facts: RunFacts
     document: JsonObject
     views: tuple[ViewOfRun, ...]
     images: tuple[ImageOfRun, ...]
     sku: SkuDocument
+    signed_by: str | None
 
 
 def load_finished_run(session: Session, run_id: UUID) -> FinishedRun:
@@ -107,6 +112,7 @@ def load_finished_run(session: Session, run_id: UUID) -> FinishedRun:
         views=_views(captures, document),
         images=tuple(ImageOfRun(capture.number, capture.sha256) for capture in captures),
         sku=SkuDocument.model_validate(session.get_one(SkuRevisionRow, run.sku_revision_id).document),
+        signed_by=session.scalar(select(CertificateRow.key_id).where(CertificateRow.run_id == run_id)),
     )
 
 
