@@ -20,6 +20,7 @@ from service.adapters.frames_mjpeg import read_mjpeg
 from service.adapters.frames_rtsp import read_rtsp
 from service.adapters.frames_v4l2 import read_v4l2
 from service.adapters.jobs_threads import ThreadJobs
+from service.adapters.signing_keys_files import load_signing_keys
 from service.api.application import create_api
 from service.api.dependencies import Services
 from service.api.ws.desk import Desks
@@ -36,6 +37,7 @@ from service.usecases.frame_address import origin_of
 from service.usecases.guide import Plant
 from service.usecases.guide_camera import Camera, CameraOpener
 from service.usecases.planning import PLAN_POSE_SET, plan_pose_set_job
+from service.usecases.signing import KeyRing
 
 # A request's transaction outlasts the thread that began it: its commit needs one again. If all threads could
 # wait for the database, none would be left for whoever holds it; so there is one for every request.
@@ -92,6 +94,12 @@ def open_database(settings: Settings) -> Database:
     return database
 
 
+def open_key_ring(settings: Settings) -> KeyRing:
+    """Return the keys that sign certificates; the first of all is made. Raises Unavailable."""
+    signer, older = load_signing_keys(Path(settings.signing_keys_dir))
+    return KeyRing.of(signer, older)
+
+
 def create_jobs(settings: Settings, database: Database, clock: Clock) -> ThreadJobs:
     """Return the queue of jobs with a handler for each kind; it is not started."""
     return ThreadJobs(
@@ -119,6 +127,7 @@ def create_services(settings: Settings, database: Database, jobs: ThreadJobs, cl
         blobs=blobs,
         jobs=jobs,
         clock=clock,
+        signing_keys=open_key_ring(settings),
         max_image_pixels=settings.max_image_megapixels * 1_000_000,
         has_frames_dir=bool(settings.frames_dir),
         checks=checks,
@@ -127,7 +136,13 @@ def create_services(settings: Settings, database: Database, jobs: ThreadJobs, cl
 
 def create_guidance(settings: Settings, services: Services, make_source: FrameSourceMaker) -> Guidance:
     """Return what the guidance socket uses."""
-    plant = Plant(services.database, services.blobs, services.clock, services.max_image_pixels)
+    plant = Plant(
+        services.database,
+        services.blobs,
+        services.clock,
+        services.signing_keys,
+        services.max_image_pixels,
+    )
     speed = settings.virtual_speed
     # Whoever is in a hurry sees fewer frames of the same movement.
     pace = Pace(speed=speed) if speed <= 1 else Pace(frames_per_s=HURRIED_FRAMES_PER_S, speed=speed)

@@ -1,18 +1,18 @@
 """The command `dmscal`: one verb each, the same use cases as the service.
 
-Exit status: 0 done (calibrate: PASS or MARGINAL), 1 calibrate: FAIL, 2 bad input or something that is not
-there, 130 interrupted. Problems go to stderr, with --json to stdout as a problem document.
-Not here: what the verbs do (use cases) and how the service is put together (app).
+Exit status: 0 done (calibrate: PASS or MARGINAL; verify: genuine), 1 calibrate: FAIL, verify: refused, block
+check: different, 2 bad input or something that is not there, 130 interrupted. Problems go to stderr, with
+--json to stdout as a problem document. Not here: what the verbs do (use cases), verbs with a file of their
+own (`commands`), and how the service is put together (app).
 """
 
 import argparse
-import json
 import os
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager
+from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 from uuid import UUID
 
 import uvicorn
@@ -20,18 +20,30 @@ from pydantic import TypeAdapter, ValidationError
 
 from service import __version__
 from service.adapters.clock_system import SystemClock
-from service.api.problems import problem_body, status_of
 from service.api.schemas import write_schemas
-from service.app import MOST_REQUESTS, create_app, largest_socket_message, open_database
+from service.app import MOST_REQUESTS, create_app, largest_socket_message, open_database, open_key_ring
+from service.commands.certificates import add_signing, add_verify
+from service.commands.exports import add_block, add_export
+from service.commands.installation import WHO, add_data_dir, opened_database, read_settings
+from service.commands.terminal import (
+    BAD_INPUT,
+    DONE,
+    FAILED,
+    INTERRUPTED,
+    PIPE_CLOSED,
+    print_text,
+    tell_problem,
+    to_json,
+    write_file,
+)
 from service.core.errors import BadRequest, ServiceError
 from service.core.planning.criterion import OBJECTIVES
 from service.core.quality.gates import Verdict
 from service.core.vision.camera import LENSES
 from service.core.vision.target import parse_target
 from service.log import configure_logging
-from service.settings import Settings
 from service.storage.database import Database
-from service.storage.migration import check_at_head, revision_of, upgrade
+from service.storage.migration import revision_of, upgrade
 from service.storage.words import Role
 from service.usecases.access import create_key, list_keys, revoke_key
 from service.usecases.folder_calibration import calibrate_folder
@@ -43,11 +55,9 @@ from service.usecases.pose_set_document import pose_set_document
 from service.usecases.sku_file import read_sku_file
 from service.usecases.text import Label
 
-WHO = "command line"
 KEYS_SHOWN = 1000
 # A kiosk that vanished without a word must free its station soon.
 SOCKET_PING_S = 5.0
-DONE, FAILED, BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 0, 1, 2, 130, 141
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -58,7 +68,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         status: int = arguments.run(arguments)
         sys.stdout.flush()
     except ServiceError as error:
-        return _tell(error, as_json="--json" in given)
+        tell_problem(error, as_json="--json" in given)
+        return BAD_INPUT
     except BrokenPipeError:
         # Whoever read the output has enough; Python must not try again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -85,6 +96,10 @@ def build_parser() -> argparse.ArgumentParser:
     _add_serve(verbs.add_parser("serve", help="start the service"))
     _add_migrate(verbs.add_parser("migrate", help="bring the database to the tables of this version"))
     _add_keys(verbs.add_parser("keys", help="add, list and revoke API keys"))
+    add_verify(verbs.add_parser("verify", help="check a certificate, also without a server"))
+    add_signing(verbs.add_parser("signing", help="show and rotate the keys that sign certificates"))
+    add_export(verbs.add_parser("export", help="write a stored result as a file"))
+    add_block(verbs.add_parser("block", help="check what was read back from a camera's memory"))
     schemas = verbs.add_parser(
         "schemas", help="write the schemas in docs and the web's types (in a checkout)"
     )
@@ -118,7 +133,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     if arguments.fix is not None:
         fixed = tuple(name.strip() for name in arguments.fix.split(",") if name.strip())
     calibration = calibrate_folder(arguments.folder, target, lens, fixed=fixed, revision=revision)
-    _print(_to_json(report_document(calibration)) if arguments.json else report_text(calibration))
+    print_text(to_json(report_document(calibration)) if arguments.json else report_text(calibration))
     return FAILED if calibration.judged.verdict is Verdict.FAIL else DONE
 
 
@@ -144,13 +159,13 @@ def _plan(arguments: argparse.Namespace) -> int:
     revision = read_sku_file(arguments.sku)
     plan = PlanRequest(arguments.seed, objective=arguments.objective, planner=arguments.planner)
     pose_set = plan_for(revision, plan, count=arguments.count)
-    document = _to_json(pose_set_document(revision, None, planned_document(revision, pose_set)))
+    document = to_json(pose_set_document(revision, None, planned_document(revision, pose_set)))
     if arguments.out is not None:
-        _write(arguments.out, document)
+        write_file(arguments.out, f"{document}\n".encode())
     if arguments.json:
-        _print(document)
+        print_text(document)
     else:
-        _print(plan_text(revision.code, pose_set))
+        print_text(plan_text(revision.code, pose_set))
     return DONE
 
 
@@ -158,23 +173,25 @@ def _add_serve(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--host", help="address to listen on (else DMSCAL_HOST, else 127.0.0.1)")
     parser.add_argument("--port", type=int, help="port to listen on (else DMSCAL_PORT, else 8000)")
     parser.add_argument("--reload", action="store_true", help="start again when the code changes")
-    _add_data_dir(parser)
+    add_data_dir(parser)
     parser.set_defaults(run=_serve)
 
 
 def _serve(arguments: argparse.Namespace) -> int:
-    settings = _settings(arguments)
+    settings = read_settings(arguments)
     given = {name: getattr(arguments, name) for name in ("host", "port")}
     settings = settings.model_copy(update={name: value for name, value in given.items() if value is not None})
     configure_logging(settings.log_level, settings.log_format)
-    # What is wrong with the database is told here in one line, and not by a server that fails to start.
+    # What is wrong with database or keys is told here in one line, and not by a server that fails to start.
     open_database(settings).close()
+    open_key_ring(settings)
     if arguments.reload:
         # The server imports the application in a process of its own, which knows the environment only.
         os.environ |= {
             "DMSCAL_DATA_DIR": str(settings.data_dir),
             "DMSCAL_DATABASE_URL": settings.database_url,
             "DMSCAL_BLOBS_URL": settings.blobs_url,
+            "DMSCAL_SIGNING_KEYS_DIR": settings.signing_keys_dir,
         }
     uvicorn.run(
         "service.app:create_app_from_environment" if arguments.reload else create_app(settings),
@@ -195,16 +212,16 @@ def _serve(arguments: argparse.Namespace) -> int:
 
 
 def _add_migrate(parser: argparse.ArgumentParser) -> None:
-    _add_data_dir(parser)
+    add_data_dir(parser)
     parser.set_defaults(run=_migrate)
 
 
 def _migrate(arguments: argparse.Namespace) -> int:
-    with closing(Database.open(_settings(arguments).database_url)) as database:
+    with closing(Database.open(read_settings(arguments).database_url)) as database:
         before = revision_of(database)
         upgrade(database)
         after = revision_of(database)
-    _print(f"The database was at revision {before or 'none'} and is at {after}.")
+    print_text(f"The database was at revision {before or 'none'} and is at {after}.")
     return DONE
 
 
@@ -220,7 +237,7 @@ def _add_keys(parser: argparse.ArgumentParser) -> None:
     revoke.add_argument("id", help="the key's id, as `keys list` prints it")
     revoke.set_defaults(run=_revoke_key)
     for verb in (add, listing, revoke):
-        _add_data_dir(verb)
+        add_data_dir(verb)
 
 
 def _add_key(arguments: argparse.Namespace) -> int:
@@ -230,20 +247,20 @@ def _add_key(arguments: argparse.Namespace) -> int:
         raise BadRequest(
             f"The name cannot be used: {error.errors()[0]['msg']}. Choose another one."
         ) from error
-    with _database(arguments) as database, database.write() as session:
+    with opened_database(arguments) as database, database.write() as session:
         made = create_key(session, arguments.name, Role(arguments.role), WHO, SystemClock().now())
     # The key alone goes to stdout, so that a script can take it.
     sys.stderr.write(f"Key of '{made.name}', role {made.role.value}, id {made.id}. It is shown this once.\n")
-    _print(made.key)
+    print_text(made.key)
     return DONE
 
 
 def _list_keys(arguments: argparse.Namespace) -> int:
-    with _database(arguments) as database, database.read() as session:
+    with opened_database(arguments) as database, database.read() as session:
         keys = list_keys(session, PageRequest(limit=KEYS_SHOWN)).items
     for key in keys:
         state = "revoked" if key.revoked_at else "valid"
-        _print(
+        print_text(
             f"{key.id}  {key.role.value:<9} {state:<8} {key.created_at:%Y-%m-%d}  {key.prefix}  {key.name}"
         )
     return DONE
@@ -254,9 +271,9 @@ def _revoke_key(arguments: argparse.Namespace) -> int:
         key_id = UUID(arguments.id)
     except ValueError as error:
         raise BadRequest(f"'{arguments.id}' is no key id; `dmscal keys list` prints the ids.") from error
-    with _database(arguments) as database, database.write() as session:
+    with opened_database(arguments) as database, database.write() as session:
         row = revoke_key(session, key_id, WHO, SystemClock().now())
-    _print(f"The key of '{row.name}' is revoked.")
+    print_text(f"The key of '{row.name}' is revoked.")
     return DONE
 
 
@@ -267,64 +284,10 @@ def _schemas(arguments: argparse.Namespace) -> int:
             "Run this in the root of a checkout: the files that it writes belong to the sources."
         )
     changed = write_schemas(project)
-    _print("\n".join(f"written: {path}" for path in changed) or "The generated files are up to date.")
+    print_text("\n".join(f"written: {path}" for path in changed) or "The generated files are up to date.")
     return DONE
 
 
 def _version(arguments: argparse.Namespace) -> int:
-    _print(f"{arguments.program} {__version__}")
+    print_text(f"{arguments.program} {__version__}")
     return DONE
-
-
-def _add_data_dir(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--data-dir", type=Path, help="directory of database and images (else DMSCAL_DATA_DIR)"
-    )
-
-
-def _settings(arguments: argparse.Namespace) -> Settings:
-    """Return the settings of the environment; raises BadRequest naming those that are wrong."""
-    try:
-        settings = Settings()
-    except ValidationError as error:
-        wrong = "; ".join(f"{'.'.join(map(str, one['loc']))}: {one['msg']}" for one in error.errors())
-        raise BadRequest(f"Correct these settings (DMSCAL_...): {wrong}.") from error
-    return settings if arguments.data_dir is None else settings.in_directory(arguments.data_dir)
-
-
-@contextmanager
-def _database(arguments: argparse.Namespace) -> Iterator[Database]:
-    """Yield the database of the settings; raises DatabaseOutdated unless it was migrated."""
-    with closing(Database.open(_settings(arguments).database_url)) as database:
-        check_at_head(database)
-        yield database
-
-
-def _tell(error: ServiceError, *, as_json: bool) -> int:
-    if as_json:
-        problem = {
-            "type": f"/problems/{error.code}",
-            "status": int(status_of(type(error))),
-            **problem_body(error),
-        }
-        _print(_to_json(problem))
-    else:
-        sys.stderr.write(f"dmscal: {error.detail}\n")
-    return BAD_INPUT
-
-
-def _to_json(document: dict[str, Any]) -> str:
-    return json.dumps(document, indent=2, allow_nan=False)
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.write_text(f"{text}\n", encoding="utf-8")
-    except OSError as error:
-        raise BadRequest(f"'{path}' cannot be written: {error.strerror}. Choose another --out.") from error
-
-
-def _print(text: str) -> None:
-    # A file name may hold what the terminal cannot show; that must not lose the report.
-    encoding = sys.stdout.encoding or "ascii"
-    sys.stdout.write(text.encode(encoding, "backslashreplace").decode(encoding) + "\n")

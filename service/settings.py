@@ -45,6 +45,11 @@ class Settings(BaseSettings):
         description="sqlite:///FILE or postgresql+psycopg://…; empty: a file in the data directory",
     )
     blobs_url: str = Field("", description="file:DIRECTORY for images; empty: `blobs` in the data directory")
+    signing_keys_dir: str = Field(
+        "",
+        description="Directory of the keys that sign certificates, one for all replicas; empty: "
+        "`signing-keys` in the data directory",
+    )
     host: str = Field("127.0.0.1", description="Address to listen on; 0.0.0.0 for all")
     port: int = Field(8000, ge=0, le=65535, description="Port to listen on; 0 takes a free one")
     log_level: Literal["DEBUG", "INFO", "WARNING", "ERROR"] = Field(
@@ -82,11 +87,19 @@ class Settings(BaseSettings):
             raise ValueError("give file:DIRECTORY")
         return value
 
+    @field_validator("signing_keys_dir")
+    @classmethod
+    def _fill_signing_keys_dir(cls, value: str, info: ValidationInfo) -> str:
+        if not value and "data_dir" in info.data:
+            return str(info.data["data_dir"] / "signing-keys")
+        return value
+
     def in_directory(self, directory: Path) -> Self:
-        """Return these settings with the database and the images in `directory`."""
+        """Return these settings with the database, the images and the signing keys in `directory`."""
         addresses = {
             "data_dir": directory,
             "database_url": f"sqlite:///{directory / 'dmscal.db'}",
             "blobs_url": f"file:{directory / 'blobs'}",
+            "signing_keys_dir": str(directory / "signing-keys"),
         }
         return self.model_copy(update=addresses)

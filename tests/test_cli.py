@@ -249,7 +249,19 @@ def test_version(capsys: Printed) -> None:
 
 
 def test_every_verb_has_help_and_something_to_run(capsys: Printed) -> None:
-    for verb in ("calibrate", "plan", "serve", "migrate", "keys", "schemas", "version"):
+    verbs = (
+        "calibrate",
+        "plan",
+        "serve",
+        "migrate",
+        "keys",
+        "verify",
+        "signing",
+        "export",
+        "block",
+        "schemas",
+    )
+    for verb in (*verbs, "version"):
         with pytest.raises(SystemExit) as ended:
             build_parser().parse_args([verb, "--help"])
         assert ended.value.code == 0

@@ -11,6 +11,8 @@ from service.api.openapi import DESCRIPTION, PROBLEM_ANSWERS, TAGS
 from service.api.problems import install_problem_handlers
 from service.api.rest import (
     captures,
+    certificates,
+    exports,
     health,
     jobs,
     keys,
@@ -54,6 +56,8 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     for resource in (
         runs,
         results,
+        certificates,
+        exports,
         vehicles,
         skus,
         pose_sets,
@@ -70,6 +74,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     images.include_router(captures.router)
     app.include_router(images)
     app.include_router(health.router, responses=PROBLEM_ANSWERS)
+    app.include_router(certificates.public_keys, responses=PROBLEM_ANSWERS)
     app.include_router(guidance.router)
     app.include_router(docs_page.router)
     app.include_router(problem_pages.router)

@@ -11,6 +11,7 @@ from sqlalchemy.orm import Session
 from service.ports import BlobStore, Clock, JobQueue
 from service.storage.database import Database
 from service.usecases.paging import PageRequest
+from service.usecases.signing import KeyRing
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Services:
     blobs: BlobStore
     jobs: JobQueue
     clock: Clock
+    signing_keys: KeyRing
     max_image_pixels: int
     has_frames_dir: bool
     checks: Mapping[str, Callable[[], None]]

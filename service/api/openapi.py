@@ -29,6 +29,7 @@ TAGS = [
     },
     {"name": "Captures", "description": "The images of a run and the corners found in them."},
     {"name": "Results", "description": "Verdict, intrinsics with their uncertainty, and every gate."},
+    {"name": "Exports", "description": "Results as files, and the block of a camera's memory."},
     {"name": "Vehicles", "description": "All that is known under one serial."},
     {"name": "SKUs", "description": "Camera variants and their revisions."},
     {

@@ -253,6 +253,18 @@ class MeasurementRow(Row):
     facts: Mapped[JsonObject | None] = mapped_column(default=None)
 
 
+class CertificateRow(Row):
+    """The signed certificate of a finished run; rows are only ever added."""
+
+    __tablename__ = "certificate"
+
+    id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
+    run_id: Mapped[UUID] = mapped_column(_refers_to("run.id"), unique=True)
+    key_id: Mapped[str]
+    token: Mapped[str]
+    created_at: Mapped[datetime]
+
+
 class ApiKeyRow(Row):
     """A key that may call the API; only its hash is kept."""
 

@@ -1,4 +1,4 @@
-"""Finish a run: calibrate, judge, store and announce in one transaction; and compute a result again.
+"""Finish a run: calibrate, judge, store, sign and announce in one transaction; and compute a result again.
 
 The solve runs before the transaction, so that it holds no lock; what it was made from is checked again
 inside.
@@ -22,15 +22,17 @@ from service.storage.models import CalibrationRow, CaptureRow, MeasurementRow, R
 from service.usecases.audit import record
 from service.usecases.calibration_input import CalibrationInput, calibrate, load_input
 from service.usecases.captures import lock_open_run
+from service.usecases.certificate import issue_certificate
 from service.usecases.result_document import result_document, versions
 from service.usecases.results import ResultView, read_result
 from service.usecases.runs import get_run
+from service.usecases.signing import KeyRing
 
 JsonObject = dict[str, Any]
 
 
-def finish_run(database: Database, run_id: UUID, who: str, now: datetime) -> ResultView:
-    """Return the stored result of a run that was open.
+def finish_run(database: Database, keys: KeyRing, run_id: UUID, who: str, now: datetime) -> ResultView:
+    """Return the stored result of a run that was open; its certificate is signed and stored with it.
 
     Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews (the run stays open);
     StateForbids when captures came or went while it was calibrated.
@@ -47,6 +49,7 @@ def finish_run(database: Database, run_id: UUID, who: str, now: datetime) -> Res
         record(
             session, now, who, "run.finish", f"run:{run_id}", serial=run.serial, verdict=judged.verdict.value
         )
+        issue_certificate(session, keys, run_id, who, now)
         return read_result(session, run_id)
 
 

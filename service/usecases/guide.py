@@ -68,6 +68,7 @@ from service.usecases.guide_views import (
 from service.usecases.observation import Picture
 from service.usecases.results import read_result
 from service.usecases.runs import abort_run, get_run
+from service.usecases.signing import KeyRing
 
 # Of the limit that the gate holds: a match at the very limit might be a FAIL on the exact corners.
 TOLERANCE_OF_LIMIT = 0.9
@@ -81,6 +82,7 @@ class Plant:
     database: Database
     blobs: BlobStore
     clock: Clock
+    signing_keys: KeyRing
     largest_pixels: int
 
 
@@ -272,7 +274,8 @@ class GuidedSession:
 
     def _finish(self) -> list[Told]:
         try:
-            result = finish_run(self._plant.database, self.run.id, self._who, self._plant.clock.now())
+            plant = self._plant
+            result = finish_run(plant.database, plant.signing_keys, self.run.id, self._who, plant.clock.now())
         except (RunAborted, RunAlreadyFinished) as error:
             return self._ended_elsewhere(error)
         except ServiceError as error:

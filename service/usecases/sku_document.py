@@ -26,6 +26,7 @@ from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.target import Target, parse_target
 from service.core.vision.tolerance import Tolerance
 from service.core.vision.uncertainty import Region
+from service.usecases.block_layout import BlockLayout
 from service.usecases.text import Code, Label
 
 Pixels = Annotated[int, Field(ge=64, le=16384)]
@@ -215,6 +216,9 @@ class SkuDocument(Document):
     )
     valid_region: RegionDocument | None = Field(
         default=None, description="Where its map is used; null: default."
+    )
+    block_layout: BlockLayout | None = Field(
+        default=None, description="Layout of the binary block for the camera's memory (docs/exports.md)."
     )
     limits: dict[str, Any] = Field(
         default_factory=dict,

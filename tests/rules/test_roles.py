@@ -15,6 +15,7 @@ from tests.plant import Plant, problem
 PUBLIC = {
     "/livez",
     "/readyz",
+    "/.well-known/jwks.json",
     "/openapi.json",
     "/api/docs",
     "/problems",

@@ -31,7 +31,13 @@ def guided(small_plant: Plant) -> guide.Plant:
     small_plant.publish_sku()
     add_station(small_plant, source="browser")
     services = small_plant.app.state.services
-    return guide.Plant(services.database, services.blobs, services.clock, services.max_image_pixels)
+    return guide.Plant(
+        services.database,
+        services.blobs,
+        services.clock,
+        services.signing_keys,
+        services.max_image_pixels,
+    )
 
 
 def run_film(session: GuidedSession, film: Film, until: type, frames: int = 400) -> list[Told]:

@@ -166,7 +166,7 @@ def finish_run(run_id: Id, caller: Operator, of: Of, now: Now) -> Result:
     A camera that fails is a result with the verdict FAIL, not an error. With too few usable views the run
     stays open.
     """
-    return Result.model_validate(finish.finish_run(of.database, run_id, caller.name, now))
+    return Result.model_validate(finish.finish_run(of.database, of.signing_keys, run_id, caller.name, now))
 
 
 @router.post("/{run_id}/abort", summary="Abort a run")

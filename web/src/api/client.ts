@@ -2,9 +2,11 @@
 import { reportReached, reportUnreached } from "./connection";
 import { dropRefusedKey, key } from "./key";
 import { meansUnreachable, mustAskForKey, problemFrom, RequestFailed, UNREACHABLE } from "./problem";
+import { fileNameOf } from "./file_name";
 import { partPath, ROOT, runsPath, yieldPath, type RunsQuery } from "./paths";
 import type {
   CaptureDetail,
+  ExportFormats,
   Language,
   PagePoseSetSummary,
   PageRunSummary,
@@ -144,11 +146,33 @@ export function retirePoseSet(id: string): Promise<PoseSet> {
   return postJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}/retire`);
 }
 
-/** The file of a pose set, and the name that the service gives it. */
-export async function exportPoseSet(id: string): Promise<{ name: string; content: Blob }> {
-  const answer = await request(`${ROOT}/pose-sets/${encodeURIComponent(id)}/export`);
-  const name = /filename="([^"]+)"/.exec(answer.headers.get("Content-Disposition") ?? "")?.[1];
-  return { name: name ?? "pose-set.json", content: await answer.blob() };
+/** A file, and the name that the service gives it. */
+export interface NamedFile {
+  name: string;
+  content: Blob;
+}
+
+async function getFile(path: string): Promise<NamedFile> {
+  const answer = await request(path);
+  const name = fileNameOf(answer.headers.get("Content-Disposition") ?? "");
+  return { name: name ?? "dmscal", content: await answer.blob() };
+}
+
+export function exportPoseSet(id: string): Promise<NamedFile> {
+  return getFile(`${ROOT}/pose-sets/${encodeURIComponent(id)}/export`);
+}
+
+export function getCertificate(runId: string): Promise<NamedFile> {
+  return getFile(`${ROOT}/runs/${encodeURIComponent(runId)}/certificate`);
+}
+
+export function getExportFormats(signal?: AbortSignal): Promise<ExportFormats> {
+  return getJson(`${ROOT}/exports`, signal);
+}
+
+export function getExportedResult(runId: string, format: string, allowFailed: boolean): Promise<NamedFile> {
+  const path = `${ROOT}/runs/${encodeURIComponent(runId)}/exports/${encodeURIComponent(format)}`;
+  return getFile(allowFailed ? `${path}?allow_failed=true` : path);
 }
 
 export function importPoseSet(code: string, revision: number, document: unknown): Promise<PoseSetRequested> {

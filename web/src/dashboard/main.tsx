@@ -5,6 +5,7 @@ import "../look/notices.css";
 import "../look/tables.css";
 import "../look/run.css";
 import "../look/drawings.css";
+import "../look/files.css";
 import "../look/plant.css";
 import "../look/review.css";
 import { render } from "preact";

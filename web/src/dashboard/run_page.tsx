@@ -12,6 +12,7 @@ import { CapturesPanel } from "./captures_panel";
 import { GatesTable } from "./gates_table";
 import { IntrinsicsTable } from "./intrinsics_table";
 import { ResidualsPanel } from "./residuals_panel";
+import { ResultFilesPanel } from "./result_files_panel";
 import { residualsOf } from "./run_residuals";
 import { useTitle } from "./use_title";
 import { VerdictBanner } from "./verdict_banner";
@@ -55,6 +56,7 @@ function Run({ run }: { run: RunDetail }): JSX.Element {
           <GatesTable gates={result.gates} />
           <div class="column">
             <IntrinsicsTable result={result} />
+            <ResultFilesPanel run={run} />
             <ResidualsPanel
               result={result}
               captures={captures}

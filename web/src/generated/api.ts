@@ -30,6 +30,75 @@ export interface ApiKeyMade {
   key: string;
 }
 
+/** How what was read back compares with the stored result. */
+export interface BlockChecked {
+  /** It is the block of this result, to the last byte. */
+  matches: boolean;
+  /** The checksum that was read fits the bytes that were read; null: not known. */
+  crc_holds: boolean | null;
+  differences: BlockDifference[];
+}
+
+/** The checksum of a block; it covers the bytes from `first` up to, and without, `end`. */
+export interface BlockCrc {
+  kind: "crc16-ccitt-false" | "crc32";
+  at: number;
+  first?: number;
+  /** Null: up to the checksum. */
+  end?: number | null;
+  /** If it differs from the layout's. */
+  byte_order?: "little" | "big" | null;
+}
+
+/** A field whose bytes are not those of the result. */
+export interface BlockDifference {
+  /** Name of the field; also `size`, `crc` and `unused bytes`. */
+  field: string;
+  /** Its first byte. */
+  at: number;
+  expected: string | number | null;
+  found: string | number | null;
+}
+
+/** One value of a block: where it stands, how it is written, and what it is. */
+export interface BlockField {
+  name: string;
+  /** u8 i8 u16 i16 u32 i32 u64 i64, f32 f64, q3.12 or uq4.12 (fixed point), ascii, bytes. */
+  type: string;
+  /** First byte; null: right after the field before. */
+  at?: number | null;
+  /** Bytes of an ascii or bytes field. */
+  size?: number | null;
+  /** If it differs from the layout's. */
+  byte_order?: "little" | "big" | null;
+  /** What to write, such as intrinsics.fx, run.serial or image.width. */
+  source?: string | null;
+  /** Write this instead: a number, text, or hex digits for bytes. */
+  constant?: number | string | null;
+  /** Value = written number * scale + offset. */
+  scale?: number;
+  offset?: number;
+  /** Byte behind text that is too short. */
+  pad?: number;
+}
+
+/** The layout of a block: fields at their places, a checksum, and what fills the rest. */
+export interface BlockLayout {
+  name: string;
+  version?: number;
+  size: number;
+  byte_order?: "little" | "big";
+  /** Byte where no field is. */
+  fill?: number;
+  fields: BlockField[];
+  crc?: BlockCrc | null;
+}
+
+/** By which layout to make a block. */
+export interface BlockOrder {
+  layout: BlockLayout;
+}
+
 /** Pose of the board in the camera's frame (`T_cam_board`): rotation vector, rad, and translation, m. */
 export interface BoardPose {
   rvec: [number, number, number];
@@ -92,6 +161,21 @@ export interface CaptureDetail {
 export interface DataSheetDocument {
   hfov_deg: number;
   vfov_deg?: number | null;
+}
+
+/** A format of exports. */
+export interface ExportFormat {
+  name: string;
+  /** What its readers call it. */
+  label: string;
+  media_type: string;
+  /** Whether one file may hold many runs. */
+  is_table: boolean;
+}
+
+/** All formats, in the order in which they are offered. */
+export interface ExportFormats {
+  formats: ExportFormat[];
 }
 
 /** A measurement that failed, and in how many of the runs. */
@@ -491,6 +575,24 @@ export interface Problem {
   errors?: FieldError[] | null;
 }
 
+/** A public key that certificates were signed with (RFC 8037). */
+export interface PublicKey {
+  kty: "OKP";
+  crv: "Ed25519";
+  /** The key, base64url. */
+  x: string;
+  /** Its id: the thumbprint of RFC 7638. */
+  kid: string;
+  alg: "EdDSA";
+  use: "sig";
+}
+
+/** A JSON Web Key Set (RFC 7517). */
+export interface PublicKeys {
+  /** The one that signs now first, then those before it. */
+  keys: PublicKey[];
+}
+
 /** Life of a SKU revision or a pose set; once published it never changes. */
 export type Publication = "draft" | "published" | "retired";
 
@@ -503,6 +605,14 @@ export interface PublishedPoseSet {
 
 /** Why a run is made. Only production and retest count for yield. */
 export type Purpose = "production" | "retest" | "golden" | "study" | "trial" | "simulated";
+
+/** What was read back from a camera's memory. */
+export interface ReadBack {
+  /** The bytes, base64. */
+  block: string;
+  /** Null: the layout of the run's SKU. */
+  layout?: BlockLayout | null;
+}
 
 /** Everything the service needs is there. */
 export interface Ready {
@@ -743,6 +853,8 @@ export interface SkuDocument {
   working_zone?: RegionDocument | null;
   /** Where its map is used; null: default. */
   valid_region?: RegionDocument | null;
+  /** Layout of the binary block for the camera's memory (docs/exports.md). */
+  block_layout?: BlockLayout | null;
   /**
    * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
    */

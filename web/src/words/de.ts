@@ -1,5 +1,6 @@
 // Every text of the pages in German.
 import { deKiosk } from "./de_kiosk";
+import { deFiles } from "./de_files";
 import { deHelp } from "./de_help";
 import { dePractice } from "./de_practice";
 import { deReview } from "./de_review";
@@ -7,6 +8,7 @@ import type { Words } from "./en";
 
 export const de: Words = {
   ...deKiosk,
+  ...deFiles,
   ...deHelp,
   ...dePractice,
   ...deReview,

@@ -1,11 +1,13 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
 import { enKiosk } from "./en_kiosk";
+import { enFiles } from "./en_files";
 import { enHelp } from "./en_help";
 import { enPractice } from "./en_practice";
 import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
+  ...enFiles,
   ...enHelp,
   ...enPractice,
   ...enReview,

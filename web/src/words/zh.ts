@@ -1,11 +1,13 @@
 // Every text of the pages in Chinese (simplified).
 import type { Words } from "./en";
+import { zhFiles } from "./zh_files";
 import { zhHelp } from "./zh_help";
 import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
 import { zhReview } from "./zh_review";
 
 export const zh: Words = {
+  ...zhFiles,
   ...zhHelp,
   ...zhKiosk,
   ...zhPractice,

@@ -1,0 +1,1 @@
+"""The pages of the PDF report and what they are drawn with."""
