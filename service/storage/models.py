@@ -204,6 +204,8 @@ class CaptureRow(Row):
     sharpness: Mapped[JsonObject]
     parity_separation: Mapped[float]
     contrast: Mapped[float]
+    # Null in captures that are older than its measurement.
+    saturated_share: Mapped[float | None] = mapped_column(default=None)
     pose: Mapped[JsonObject | None] = mapped_column(default=None)
     match_error_px: Mapped[float | None] = mapped_column(default=None)
     created_at: Mapped[datetime]

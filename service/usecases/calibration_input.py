@@ -3,6 +3,7 @@
 The same input gives the same result to the last digit; images are not needed again.
 """
 
+import math
 from dataclasses import dataclass
 from uuid import UUID
 
@@ -105,6 +106,7 @@ def _detection(capture: CaptureRow) -> NamedDetection:
         sharpness=sharpness_from_json(capture.sharpness),
         parity_separation=capture.parity_separation,
         contrast=capture.contrast,
+        saturated_share=math.nan if capture.saturated_share is None else capture.saturated_share,
     )
     # Names are unique within a run even where stations send every image under the same file name.
     return NamedDetection(f"{capture.number:02d} {capture.file_name}", detection, capture.sha256)

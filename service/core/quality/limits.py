@@ -40,6 +40,7 @@ class Limits:
 
     parity_separation: float = 0.35  # true boards have 0.50 or more, false finds 0.22 and less
     contrast: float = 40.0  # grey levels
+    saturated_share: float = 0.20  # of the bright squares; good light leaves less than 0.05, guidance 0.15
     edge_width_px: float = 3.0  # 10-90 %
     quadrant_ratio: float = 1.3
     match_share: float = 0.02  # of the image width, mean distance of the four outer corners

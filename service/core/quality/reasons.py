@@ -22,6 +22,7 @@ class Reason(StrEnum):
     NEAREST_CORNER = "nearest_corner"
     PARITY_SEPARATION = "parity_separation"
     CONTRAST = "contrast"
+    SATURATED_SHARE = "saturated_share"
     EDGE_WIDTH = "edge_width_px"
     BLURRED_LENS = "blurred_lens"  # most views are blurred
     QUADRANT_RATIO = "quadrant_ratio"

@@ -25,9 +25,10 @@ from service.core.vision.board import (
 from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.grid_growth import complete_grid, measure_steps, room_px
-from service.core.vision.light import LightFall, even_out, fit_light, read_cells
+from service.core.vision.light import LightFall, even_out, fit_light, read_cells, saturated_share
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
+from service.core.vision.problems import TargetOverexposed
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage, smooth
 from service.core.vision.sharpness import Sharpness, measure_sharpness
@@ -43,6 +44,7 @@ DISC_RADII_PX = (3.0, 8.0)
 DISC_PER_EDGE_WIDTH = 1.5
 DISC_PER_SQUARE = 0.4
 LEAST_SEPARATION = 0.2
+LARGEST_SATURATED_SHARE = 0.5  # above it the light on the board is not known any more
 SHARE_OF_A_RIVAL = 0.6  # of the target's corners that a second board must show at first sight
 
 
@@ -51,7 +53,8 @@ class Detection:
     """A target found in an image.
 
     image_points: (n, 2) px. corner_ids: (n,) indices into target.object_points. image_size: (width, height)
-    px. parity_separation and contrast: see `Parity`.
+    px. parity_separation and contrast: see `Parity`. saturated_share: of the bright squares; NaN where it was
+    not measured, as in captures of before.
     """
 
     image_points: Array
@@ -60,6 +63,7 @@ class Detection:
     sharpness: Sharpness
     parity_separation: float
     contrast: float
+    saturated_share: float = float("nan")
 
 
 def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
@@ -67,7 +71,8 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
 
     Raises TargetNotVisible when there is no board or not the whole of it (facts: corners_seen,
     corners_needed), WrongTarget when the board has more rows or columns than declared (facts: found_columns,
-    found_rows), Unprocessable when the array is no grey image.
+    found_rows), TargetOverexposed when most of its bright squares are saturated (facts: saturated_share),
+    Unprocessable when the array is no grey image.
     """
     image = check_grey_image(image)
     grid = _find_board(image, smooth(image, PROVING_SIGMA_PX), target)
@@ -78,6 +83,8 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
     light = fit_light(cells)
     parity = measure_parity(cells, light)
     _check_parity(parity, target)
+    saturated = saturated_share(image, corners, cells.bright.reshape(target.rows - 1, target.columns - 1))
+    _check_exposure(saturated)
     points = _refined(blurred, corners, light, sharpness, target)
     return Detection(
         image_points=points,
@@ -86,6 +93,7 @@ def detect_target(image: NDArray[np.uint8], target: Chessboard) -> Detection:
         sharpness=sharpness,
         parity_separation=parity.separation,
         contrast=parity.contrast,
+        saturated_share=saturated,
     )
 
 
@@ -187,4 +195,13 @@ def _check_parity(parity: Parity, target: Chessboard) -> None:
             f"What looks like a {target.columns}x{target.rows} grid does not alternate between dark and "
             "bright; show a chessboard, with no reflection or shadow edge on it.",
             parity_separation=round(parity.separation, 3),
+        )
+
+
+def _check_exposure(saturated: float) -> None:
+    if saturated > LARGEST_SATURATED_SHARE:
+        raise TargetOverexposed(
+            f"{saturated:.0%} of the board's bright squares are saturated. Dim the lamp, shade the window or "
+            "shorten the exposure, then take the image again.",
+            saturated_share=round(saturated, 3),
         )

@@ -1,10 +1,12 @@
-"""How light falls across a board: the grey levels of its bright and its dark squares as smooth surfaces.
+"""How light falls across a board: the grey levels of its bright and its dark squares as smooth surfaces, and
+how much of the bright ones is saturated.
 
 Light that falls off across a corner tilts the grey surface and moves its saddle point (by a tenth of a pixel
 under a lamp beside the lens); levels that are taken relative to both surfaces do not have that tilt.
-Not here: whether the squares alternate (`parity`).
+Saturation hides how the light fell. Not here: whether the squares alternate (`parity`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +16,10 @@ from service.core.vision.sampling import FloatImage, sample_bilinear
 from service.core.vision.transforms import Array
 
 CELLS_FOR_CURVATURE = 10
+CLIPPED = (
+    254.0  # grey level; the whites of real pictures, and JPEG's ringing, reach 253 without being clipped
+)
+PLACES = np.linspace(0.1, 0.9, 9)  # of a square, where clipping is looked for
 
 
 @dataclass(frozen=True)
@@ -51,6 +57,28 @@ def read_cells(blurred: FloatImage, corners: Array, dark_first: bool = True) -> 
     row, column = np.indices(total.shape)
     centres = 0.25 * (a + b + c + d)
     return Cells(centres.reshape(-1, 2), total.ravel() / 9.0, ((row + column) % 2 == dark_first).ravel())
+
+
+def saturated_share(
+    image: NDArray[np.uint8],
+    corners: Array,
+    bright: NDArray[np.bool_],
+    level: float = CLIPPED,
+    places: Sequence[float] | Array = PLACES,
+) -> float:
+    """Return the share of spots in the bright squares of an image (h, w) that have at least a grey level.
+
+    corners: (rows, columns, 2) px; bright: (rows - 1, columns - 1), which inner squares are bright; places:
+    where spots lie across and down each square, from 0 to 1.
+    """
+    a, b, c, d = (
+        part[bright] for part in (corners[:-1, :-1], corners[:-1, 1:], corners[1:, 1:], corners[1:, :-1])
+    )
+    across, down = (grid.reshape(-1, 1, 1) for grid in np.meshgrid(places, places))
+    top = a * (1.0 - across) + b * across
+    bottom = d * (1.0 - across) + c * across
+    spots = top * (1.0 - down) + bottom * down
+    return float(np.mean(sample_bilinear(image, spots[..., 0], spots[..., 1]) >= level))
 
 
 def fit_light(cells: Cells) -> LightFall:

@@ -86,6 +86,8 @@ export interface CaptureDetail {
   sharpness: Sharpness;
   parity_separation: number;
   contrast: number;
+  /** Share of the bright squares that is saturated; null in captures of before. */
+  saturated_share: number | null;
 }
 
 /** What is known of a camera before one was calibrated: its field of view. */
@@ -744,7 +746,7 @@ export interface SkuDocument {
   /** Where its map is used; null: default. */
   valid_region?: RegionDocument | null;
   /**
-   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
+   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, saturated_share, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
    */
   limits?: Record<string, unknown>;
 }

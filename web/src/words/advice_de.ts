@@ -44,6 +44,12 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ views }: About) => `Dunkle und helle Felder unterscheiden sich zu wenig in: ${views}.`,
     remedy: "Mehr Licht geben oder länger belichten.",
   },
+  saturated_share: {
+    good: "Kaum ein helles Feld ist gesättigt.",
+    bad: ({ views }: About) =>
+      `Helle Felder sind gesättigt, sodass nicht mehr zu sehen ist, wie das Licht fiel: ${views}.`,
+    remedy: "Die Lampe dimmen, das Fenster verdunkeln oder kürzer belichten, dann noch einmal aufnehmen.",
+  },
   edge_width_px: {
     good: "Jede Ansicht ist scharf.",
     bad: ({ views }: About) => `Unscharf: ${views}.`,

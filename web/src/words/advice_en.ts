@@ -32,6 +32,11 @@ export const adviceEn = {
     bad: ({ views }: About) => `Dark and bright squares differ too little in: ${views}.`,
     remedy: "Give more light or a longer exposure.",
   },
+  saturated_share: {
+    good: "Hardly any bright square is saturated.",
+    bad: ({ views }: About) => `Bright squares are saturated, which hides how the light fell: ${views}.`,
+    remedy: "Dim the lamp, shade the window or shorten the exposure, then take it again.",
+  },
   edge_width_px: {
     good: "Every view is sharp.",
     bad: ({ views }: About) => `Blurred: ${views}.`,

@@ -45,6 +45,11 @@ export const adviceZh: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ views }: About) => `黑白方格差别太小：${views}。`,
     remedy: "增加光照或延长曝光。",
   },
+  saturated_share: {
+    good: "几乎没有白色方格过曝。",
+    bad: ({ views }: About) => `白色方格过曝，看不出光照的分布：${views}。`,
+    remedy: "请调暗灯光、遮挡窗户或缩短曝光，然后重新拍摄。",
+  },
   edge_width_px: {
     good: "每个视图都清晰。",
     bad: ({ views }: About) => `模糊：${views}。`,

@@ -170,6 +170,7 @@ export const de: Words = {
   fact_view_max: "Größtes Residuum",
   fact_edge_width: "Kantenbreite 10–90 %",
   fact_contrast: "Kontrast",
+  fact_saturated: "Gesättigte helle Felder",
   fact_parity: "Paritätsabstand",
   fact_match_error: "Abweichung von der Pose",
   fact_distance: "Entfernung",

@@ -168,6 +168,7 @@ export const en = {
   fact_view_max: "Largest residual",
   fact_edge_width: "Edge width 10–90 %",
   fact_contrast: "Contrast",
+  fact_saturated: "Saturated bright squares",
   fact_parity: "Parity separation",
   fact_match_error: "Pose match error",
   fact_distance: "Distance",

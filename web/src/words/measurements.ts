@@ -15,6 +15,11 @@ const NAMES: Readonly<Record<string, Name>> = {
   nearest_corner: { en: "Nearest corner in front", de: "Nächste Ecke vor der Kamera", zh: "最近角点在前方" },
   parity_separation: { en: "Black and white apart", de: "Abstand Schwarz–Weiß", zh: "黑白区分度" },
   contrast: { en: "Contrast", de: "Kontrast", zh: "对比度" },
+  saturated_share: {
+    en: "Saturated share of bright squares",
+    de: "Gesättigter Anteil heller Felder",
+    zh: "白色方格过曝比例",
+  },
   edge_width_px: { en: "Edge width 10–90 %", de: "Kantenbreite 10–90 %", zh: "边缘宽度 10–90 %" },
   quadrant_ratio: {
     en: "Worst quadrant / centre",

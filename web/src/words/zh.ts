@@ -166,6 +166,7 @@ export const zh: Words = {
   fact_view_max: "最大残差",
   fact_edge_width: "边缘宽度 10–90 %",
   fact_contrast: "对比度",
+  fact_saturated: "过曝的白色方格",
   fact_parity: "黑白区分度",
   fact_match_error: "位姿吻合误差",
   fact_distance: "距离",
