@@ -21,6 +21,7 @@ from service.core.quality.gates_fit import measure_fit
 from service.core.quality.gates_frame import measure_frame
 from service.core.quality.gates_identity import measure_identity
 from service.core.quality.gates_model import measure_model
+from service.core.quality.gates_population import measure_population
 from service.core.quality.gates_poses import measure_poses
 from service.core.quality.gates_score import Score, measure_score, score_against
 from service.core.quality.gates_sharpness import measure_sharpness
@@ -119,6 +120,7 @@ def _judge(evidence: Evidence) -> Judged:
         *measure_cross_check(evidence),
         *measure_model(evidence),
         *measure_identity(evidence),
+        *measure_population(evidence),
         *measure_score(score),
     )
     return Judged(

@@ -217,6 +217,28 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ fact }: About) => `Diese Kamera sieht aus wie eine der SKU ${fact("sku")}.`,
     remedy: "Prüfen, welche Kamera eingebaut ist, und den Lauf für deren SKU öffnen.",
   },
+  population_units: {
+    good: ({ fact }: About) =>
+      `${fact("count")} von ${fact("of")} Kameras dieser SKU-Revision sind bekannt; bis dahin gelten die Startgrenzen.`,
+  },
+  population_distance: {
+    good: ({ fact }: About) => `Diese Kamera ist wie die ${fact("units")} anderen ihrer SKU.`,
+    bad: ({ fact }: About) =>
+      `Diese Kamera ist anders als die ${fact("units")} anderen ihrer SKU: ${fact("parameter")} liegt ${fact("deviations")} Standardabweichungen daneben, weiter als jeder andere Parameter.`,
+    remedy:
+      "Prüfen, ob die Kamera von dieser SKU ist und ihr Objektiv richtig sitzt. Wurden Teile geändert, eine Revision der SKU anlegen: ihre Population beginnt neu.",
+  },
+  other_population: {
+    good: "Die angegebene SKU erklärt diese Kamera am besten.",
+    bad: ({ fact }: About) => `Diese Kamera ist weit eher eine der SKU ${fact("sku")}.`,
+    remedy: "Prüfen, welche Kamera verbaut ist, und den Lauf für deren SKU öffnen.",
+  },
+  other_population_twin: {
+    good: ({ fact }: About) =>
+      `Kameras der SKU ${fact("sku")} gleichen diesen so sehr, dass kein Bild sie unterscheidet.`,
+    bad: ({ fact }: About) => `Diese Kamera ist weit eher eine der SKU ${fact("sku")}.`,
+    remedy: "Prüfen, welche Kamera verbaut ist, und den Lauf für deren SKU öffnen.",
+  },
   used_elsewhere: {
     good: "Kein Bild wurde für eine andere Seriennummer benutzt.",
     bad: ({ views }: About) => `Schon für eine andere Seriennummer benutzt: ${views}.`,

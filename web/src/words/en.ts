@@ -248,6 +248,16 @@ export const en = {
   fact_yaw: "Yaw",
   fact_pitch: "Pitch",
   fact_roll: "Roll",
+  population_title: "Population",
+  population_growing: (units: number, needed: number): string =>
+    `${units} of ${needed} cameras are known; until all are, the start limits hold alone.`,
+  population_judging: (units: number): string => `Results are compared with a state of ${units} cameras.`,
+  population_wide: (share: string): string =>
+    `Mean and three sd take ${share} of the start limits: good cameras fail at them. Look at the nominal and the parts.`,
+  population_mean: "Mean",
+  population_between: "sd between",
+  population_own: "sd of one",
+  population_count: (units: number): string => `${units} cameras`,
   limits_title: "Limits",
   limits_note: "of the gates",
   limits_marginal: "MARGINAL from",

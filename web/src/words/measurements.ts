@@ -84,6 +84,21 @@ const NAMES: Readonly<Record<string, Name>> = {
     zh: "主点与标称之差",
   },
   other_sku: { en: "Nearer to another SKU", de: "Näher an einer anderen SKU", zh: "更接近其他 SKU" },
+  population_units: {
+    en: "Cameras known of the SKU",
+    de: "Bekannte Kameras der SKU",
+    zh: "已知的同 SKU 相机",
+  },
+  population_distance: {
+    en: "Distance from the SKU’s cameras (χ²)",
+    de: "Abstand von den Kameras der SKU (χ²)",
+    zh: "与同 SKU 相机的距离（χ²）",
+  },
+  other_population: {
+    en: "Likelier of another SKU (−2 ln)",
+    de: "Eher von einer anderen SKU (−2 ln)",
+    zh: "更可能属于其他 SKU（−2 ln）",
+  },
   used_elsewhere: {
     en: "Pictures of another serial",
     de: "Bilder einer anderen Seriennummer",
@@ -97,6 +112,7 @@ const UNITS: Readonly<Record<string, Name>> = {
   "grey levels": { en: "grey levels", de: "Graustufen", zh: "灰度级" },
   images: { en: "images", de: "Bilder", zh: "张图像" },
   poses: { en: "poses", de: "Posen", zh: "个位姿" },
+  units: { en: "units", de: "Stück", zh: "台" },
   squares: { en: "squares", de: "Felder", zh: "格" },
 };
 

@@ -245,6 +245,16 @@ export const zh: Words = {
   fact_yaw: "偏航",
   fact_pitch: "俯仰",
   fact_roll: "滚转",
+  population_title: "总体",
+  population_growing: (units: number, needed: number): string =>
+    `已知 ${units} 台相机（需要 ${needed} 台）；在此之前仅适用初始限值。`,
+  population_judging: (units: number): string => `结果与 ${units} 台相机的统计状态比较。`,
+  population_wide: (share: string): string =>
+    `均值加三倍标准差占初始限值的 ${share}：合格的相机也会超限。请检查标称值和零件。`,
+  population_mean: "均值",
+  population_between: "相机间标准差",
+  population_own: "单次标准差",
+  population_count: (units: number): string => `${units} 台相机`,
   limits_title: "限值",
   limits_note: "各检查项",
   limits_marginal: "临界起点",
