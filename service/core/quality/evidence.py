@@ -63,10 +63,12 @@ class Expectation:
 class Evidence:
     """All that the gates need: the views used, the images refused, the solve, the limits and the zones.
 
+    board: (n, 3) m, where the corners of the plate itself are: the target's, or those of its learnt shape.
     working_grid, valid_grid: (m, 2) px, points of the zones over which mapping errors are taken.
     """
 
     target: Chessboard
+    board: Array
     views: tuple[NamedDetection, ...]
     refused: tuple[Refusal, ...]
     result: CalibrationResult

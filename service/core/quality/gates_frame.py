@@ -81,7 +81,7 @@ def _facing(evidence: Evidence) -> tuple[Measurement, Measurement]:
     rotations, translations = stack_poses(evidence.result.poses)
     centres = rotations @ evidence.target.centre + translations
     sight = centres / np.linalg.norm(centres, axis=1, keepdims=True)
-    points = evidence.target.object_points @ np.swapaxes(rotations, 1, 2) + translations[:, None]
+    points = evidence.board @ np.swapaxes(rotations, 1, 2) + translations[:, None]
     facing = np.sum(rotations[:, :, 2] * sight, axis=1)
     depth = (points @ sight[:, :, None])[..., 0].min(axis=1)
     return (

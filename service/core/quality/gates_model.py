@@ -86,7 +86,7 @@ def _monotone_ratio(evidence: Evidence) -> float:
     """
     intrinsics = evidence.result.intrinsics
     rotations, translations = stack_poses(evidence.result.poses)
-    points = np.swapaxes(rotations @ evidence.target.object_points.T, 1, 2) + translations[:, None]
+    points = np.swapaxes(rotations @ evidence.board.T, 1, 2) + translations[:, None]
     valid = unproject(intrinsics, evidence.valid_grid)
     if not np.all(np.isfinite(valid)):
         return 0.0
