@@ -76,8 +76,9 @@ def good_run(seed: tuple[int, ...]) -> Outcome:
     return judge_pictures(_photograph(draw_camera(NOMINAL, Tolerance(), rng), rng))
 
 
-def _photograph(camera: Intrinsics, rng: np.random.Generator) -> list[Image]:
-    prepared = prepare(production_scene(camera, BOARD, SEED))
+def _photograph(camera: Intrinsics, rng: np.random.Generator, gain: float = 1.0) -> list[Image]:
+    scene = production_scene(camera, BOARD, SEED)
+    prepared = prepare(replace(scene, exposure=gain * scene.exposure))
     return [capture.image for capture in take_captures(prepared, poses(), HAND, rng)]
 
 
@@ -241,6 +242,16 @@ def curled_board(seed: int) -> Outcome:
     return judge_views(_corners_of(draw_camera(NOMINAL, Tolerance(), rng), poses(), rng, board))
 
 
+def saturated(seed: int) -> Outcome:
+    """The lamp is turned up, or the shutter stays open for longer: a third more light to three times as much.
+
+    Below that hardly a view has a fifth of its bright squares saturated, and its corners are as good as ever.
+    """
+    rng = np.random.default_rng((SEED, seed))
+    gain = float(np.exp(rng.uniform(np.log(1.33), np.log(3.0))))
+    return judge_pictures(_photograph(draw_camera(NOMINAL, Tolerance(), rng), rng, gain))
+
+
 def swapped_sku(seed: int) -> Outcome:
     """The camera is of another SKU, whose focal length is 1.5 % longer."""
     rng = np.random.default_rng(seed)
@@ -291,6 +302,7 @@ CASES = {
     "anisotropic": Case(anisotropic, frozenset({"square_pixels"})),
     "moved_corner": Case(moved_corner, frozenset({"worst_view_ratio", "outlier_share"})),
     "curled_board": Case(curled_board, frozenset({"bias_ratio", "neighbour_correlation"})),
+    "saturated": Case(saturated, frozenset({"saturated_share", "target-overexposed"})),
     "swapped_sku": Case(swapped_sku, frozenset({"other_sku"})),
     "swapped_serial": Case(swapped_serial, frozenset({"used_elsewhere"})),
     "few_tilts": Case(few_tilts, CERTAINTY | {"degenerate-views"}),

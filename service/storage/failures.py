@@ -20,7 +20,7 @@ from service.core.errors import (
     RunAlreadyFinished,
     ServiceError,
 )
-from service.storage.models import Row
+from service.storage.learnt import ALL_TABLES
 
 CONSTRAINT_TO_ERROR: Mapping[str, tuple[type[Conflict], str]] = {
     "uq_target_serial": (
@@ -119,7 +119,7 @@ def _violated_constraint(refusal: BaseException) -> str:
 def _name_in_message(message: str) -> str:
     # SQLite names the columns of a violated key, never the key itself.
     match = re.fullmatch(r"UNIQUE constraint failed: (.+)", message)
-    return _names_by_columns(Row.metadata).get(match[1], "") if match else ""
+    return _names_by_columns(ALL_TABLES).get(match[1], "") if match else ""
 
 
 def _names_by_columns(metadata: MetaData) -> dict[str, str]:

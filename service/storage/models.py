@@ -2,6 +2,7 @@
 
 Ids are made in Python and foreign keys are checked at commit, so rows may be added in any order. Times come
 from the caller's clock. JSON holds no NaN or infinity: what is not known is null. Arrays are lists of floats.
+Not here: what is learnt over many runs (`learnt`).
 """
 
 from datetime import datetime
@@ -43,7 +44,8 @@ class Row(MappedAsDataclass, DeclarativeBase, kw_only=True, eq=False, repr=False
     }
 
 
-def _refers_to(column: str) -> ForeignKey:
+def refers_to(column: str) -> ForeignKey:
+    """Return a foreign key that is checked at commit."""
     return ForeignKey(column, deferrable=True, initially="DEFERRED")
 
 
@@ -80,7 +82,7 @@ class SkuRevisionRow(Row):
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    sku_id: Mapped[UUID] = mapped_column(_refers_to("sku.id"))
+    sku_id: Mapped[UUID] = mapped_column(refers_to("sku.id"))
     number: Mapped[int]
     document: Mapped[JsonObject]
     state: Mapped[Publication] = mapped_column(word(Publication, "state"), default=Publication.DRAFT)
@@ -123,12 +125,12 @@ class PoseSetRow(Row):
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    sku_revision_id: Mapped[UUID] = mapped_column(_refers_to("sku_revision.id"))
+    sku_revision_id: Mapped[UUID] = mapped_column(refers_to("sku_revision.id"))
     state: Mapped[Publication] = mapped_column(word(Publication, "state"), default=Publication.DRAFT)
     poses: Mapped[JsonArray]
     prediction: Mapped[JsonObject]
     provenance: Mapped[JsonObject]
-    job_id: Mapped[UUID | None] = mapped_column(_refers_to("job.id"), default=None)
+    job_id: Mapped[UUID | None] = mapped_column(refers_to("job.id"), default=None)
     created_at: Mapped[datetime]
     published_at: Mapped[datetime | None] = mapped_column(default=None)
     published_by: Mapped[str | None] = mapped_column(default=None)
@@ -144,7 +146,7 @@ class StationRow(Row):
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     code: Mapped[str] = mapped_column(unique=True)
     name: Mapped[str]
-    target_id: Mapped[UUID | None] = mapped_column(_refers_to("target.id"), default=None)
+    target_id: Mapped[UUID | None] = mapped_column(refers_to("target.id"), default=None)
     source: Mapped[str] = mapped_column(
         default=FrameOrigin.BROWSER.value, server_default=FrameOrigin.BROWSER.value
     )
@@ -165,9 +167,9 @@ class RunRow(Row):
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    sku_revision_id: Mapped[UUID] = mapped_column(_refers_to("sku_revision.id"))
-    pose_set_id: Mapped[UUID | None] = mapped_column(_refers_to("pose_set.id"), default=None)
-    station_id: Mapped[UUID | None] = mapped_column(_refers_to("station.id"), default=None)
+    sku_revision_id: Mapped[UUID] = mapped_column(refers_to("sku_revision.id"))
+    pose_set_id: Mapped[UUID | None] = mapped_column(refers_to("pose_set.id"), default=None)
+    station_id: Mapped[UUID | None] = mapped_column(refers_to("station.id"), default=None)
     serial: Mapped[str]
     purpose: Mapped[Purpose] = mapped_column(word(Purpose, "purpose"), default=Purpose.PRODUCTION)
     state: Mapped[RunState] = mapped_column(word(RunState, "state"), default=RunState.OPEN)
@@ -191,7 +193,7 @@ class CaptureRow(Row):
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    run_id: Mapped[UUID] = mapped_column(_refers_to("run.id"))
+    run_id: Mapped[UUID] = mapped_column(refers_to("run.id"))
     number: Mapped[int]
     pose_index: Mapped[int | None] = mapped_column(default=None)
     file_name: Mapped[str]
@@ -204,6 +206,8 @@ class CaptureRow(Row):
     sharpness: Mapped[JsonObject]
     parity_separation: Mapped[float]
     contrast: Mapped[float]
+    # Null in captures that are older than its measurement.
+    saturated_share: Mapped[float | None] = mapped_column(default=None)
     pose: Mapped[JsonObject | None] = mapped_column(default=None)
     match_error_px: Mapped[float | None] = mapped_column(default=None)
     created_at: Mapped[datetime]
@@ -215,7 +219,7 @@ class CalibrationRow(Row):
     __tablename__ = "calibration"
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    run_id: Mapped[UUID] = mapped_column(_refers_to("run.id"), unique=True)
+    run_id: Mapped[UUID] = mapped_column(refers_to("run.id"), unique=True)
     verdict: Mapped[Verdict] = mapped_column(word(Verdict, "verdict"))
     lens: Mapped[str]
     intrinsics: Mapped[JsonObject]
@@ -238,7 +242,7 @@ class MeasurementRow(Row):
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    calibration_id: Mapped[UUID] = mapped_column(_refers_to("calibration.id"))
+    calibration_id: Mapped[UUID] = mapped_column(refers_to("calibration.id"))
     gate: Mapped[str]
     name: Mapped[str]
     value: Mapped[float | None]

@@ -3,7 +3,9 @@
 The same input gives the same result to the last digit; images are not needed again.
 """
 
+import math
 from dataclasses import dataclass
+from typing import Any
 from uuid import UUID
 
 import numpy as np
@@ -13,23 +15,29 @@ from sqlalchemy.orm import Session
 from service.core.quality.evidence import Expectation, NamedDetection
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.run import Purpose
-from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
-from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow
-from service.storage.words import Publication
+from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.usecases.identity import load_identity
 from service.usecases.observation import pose_from_json, sharpness_from_json
 from service.usecases.sku_document import Revision, SkuDocument
+
+JsonObject = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class CalibrationInput:
-    """The captures of a run in their order, what was detected in them, and what the SKU says."""
+    """The captures of a run in their order, what was detected in them, and what the SKU says.
+
+    identity: names what its camera is told from others by, as it is stored with the result; None for results
+    of before.
+    """
 
     run_id: UUID
     capture_ids: tuple[UUID, ...]
     detections: tuple[NamedDetection, ...]
     revision: Revision
     expectation: Expectation
+    identity: JsonObject | None
 
 
 def load_input(session: Session, run: RunRow) -> CalibrationInput:
@@ -39,6 +47,7 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
     query = select(CaptureRow).where(CaptureRow.run_id == run.id).order_by(CaptureRow.number)
     captures = list(session.scalars(query))
     pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
+    identity = load_identity(session, run)
     expectation = Expectation(
         nominal=revision.intrinsics,
         limits=revision.limits,
@@ -46,11 +55,16 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
         valid_region=revision.valid_region,
         poses=None if pose_set is None else tuple(pose_from_json(pose) for pose in pose_set.poses),
         pose_of_view=None if pose_set is None else tuple(capture.pose_index for capture in captures),
-        other_skus=_other_skus(session, run),
+        other_skus=identity.other_skus,
+        population_units=identity.units,
+        population=identity.population,
+        other_populations=identity.other_populations,
         used_for=_used_for(session, run, [capture.sha256 for capture in captures]),
     )
     ids = tuple(capture.id for capture in captures)
-    return CalibrationInput(run.id, ids, tuple(map(_detection, captures)), revision, expectation)
+    return CalibrationInput(
+        run.id, ids, tuple(map(_detection, captures)), revision, expectation, identity.reference
+    )
 
 
 def calibrate(source: CalibrationInput) -> Judged:
@@ -63,20 +77,6 @@ def calibrate(source: CalibrationInput) -> Judged:
         source.expectation,
         fixed=revision.fixed,
     )
-
-
-def _other_skus(session: Session, run: RunRow) -> dict[str, Intrinsics]:
-    """Return the nominals of all other SKUs' published revisions, by code."""
-    own = session.get_one(SkuRevisionRow, run.sku_revision_id).sku_id
-    query = (
-        select(SkuRow.code, SkuRevisionRow.document)
-        .join(SkuRevisionRow, SkuRevisionRow.sku_id == SkuRow.id)
-        .where(SkuRevisionRow.state == Publication.PUBLISHED, SkuRow.id != own)
-    )
-    return {
-        code: SkuDocument.model_validate(document).to_revision().intrinsics
-        for code, document in session.execute(query)
-    }
 
 
 def _used_for(session: Session, run: RunRow, hashes: list[str]) -> dict[str, str]:
@@ -105,6 +105,7 @@ def _detection(capture: CaptureRow) -> NamedDetection:
         sharpness=sharpness_from_json(capture.sharpness),
         parity_separation=capture.parity_separation,
         contrast=capture.contrast,
+        saturated_share=math.nan if capture.saturated_share is None else capture.saturated_share,
     )
     # Names are unique within a run even where stations send every image under the same file name.
     return NamedDetection(f"{capture.number:02d} {capture.file_name}", detection, capture.sha256)

@@ -49,6 +49,7 @@ class CaptureDetailView(CaptureView):
     sharpness: dict[str, Any]
     parity_separation: float
     contrast: float
+    saturated_share: float | None
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,7 @@ def view_capture_detail(session: Session, row: CaptureRow) -> CaptureDetailView:
         sharpness=row.sharpness,
         parity_separation=row.parity_separation,
         contrast=row.contrast,
+        saturated_share=row.saturated_share,
     )
 
 

@@ -23,6 +23,7 @@ from service.usecases.audit import record
 from service.usecases.calibration_input import CalibrationInput, calibrate, load_input
 from service.usecases.captures import lock_open_run
 from service.usecases.certificate import issue_certificate
+from service.usecases.population import admit_unit
 from service.usecases.result_document import result_document, versions
 from service.usecases.results import ResultView, read_result
 from service.usecases.runs import get_run
@@ -91,12 +92,14 @@ def _store(session: Session, run: RunRow, source: CalibrationInput, judged: Judg
         now,
     )
     session.flush()
+    admit_unit(session, run, row, now)
     outbox.append(session, "run.finished", f"vehicle:{run.serial}", _announcement(session, run, row), now)
 
 
 def _document(source: CalibrationInput, judged: Judged) -> JsonObject:
     names = [detection.name for detection in source.detections]
-    return result_document(judged, dict(zip(names, source.capture_ids, strict=True)))
+    document = result_document(judged, dict(zip(names, source.capture_ids, strict=True)))
+    return document if source.identity is None else {**document, "identity": source.identity}
 
 
 def _measurements(calibration_id: UUID, measurements: Iterable[Measurement]) -> list[MeasurementRow]:

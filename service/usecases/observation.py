@@ -55,7 +55,7 @@ def observe(picture: Picture, prescription: Prescription) -> Observation:
     """Return what a picture shows.
 
     Raises ImageTooLarge, ImageUnreadable, ImageFormatUnsupported, WrongImageSize, TargetNotVisible,
-    WrongTarget.
+    TargetOverexposed, WrongTarget.
     """
     header = check_image(picture.content, picture.name)
     width, height = prescription.nominal.image_size

@@ -37,4 +37,6 @@ def test_the_rms_alone_would_pass_most_of_them() -> None:
 
 
 def test_every_case_of_the_fault_table_is_named_as_agreed() -> None:
-    assert {"wrong_board", "mirrored_view", "mirrored_all", "blur", "motion_blur"} | set(QUICK) == set(CASES)
+    assert {"saturated", "wrong_board", "mirrored_view", "mirrored_all", "blur", "motion_blur"} | set(
+        QUICK
+    ) == set(CASES)

@@ -59,6 +59,9 @@ class CaptureDetail(Capture):
     sharpness: Sharpness
     parity_separation: float
     contrast: float
+    saturated_share: float | None = Field(
+        description="Share of the bright squares that is saturated; null in captures of before."
+    )
 
 
 UPLOAD_ANSWERS: dict[int | str, dict[str, Any]] = {

@@ -1,16 +1,17 @@
 """SKUs and their revisions: draft, published (never edited again), retired."""
 
 from datetime import datetime
+from typing import Annotated
 from uuid import UUID
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Query
 from pydantic import Field
 
 from service.api.auth import Engineer, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
 from service.api.shapes import Answer, Page, RevisionNumber, SkuCode
 from service.storage.words import Publication
-from service.usecases import skus
+from service.usecases import population, skus
 from service.usecases.sku_document import SkuDocument
 
 router = APIRouter(prefix="/skus", tags=["SKUs"])
@@ -48,6 +49,35 @@ class RevisionLimits(Answer):
     """All limits by which runs of a revision are judged."""
 
     limits: list[Limit]
+
+
+class PopulationParameter(Answer):
+    """A parameter of the lens over the cameras of a SKU revision."""
+
+    name: str
+    mean: float
+    sd_between: float = Field(description="Standard deviation between cameras, without calibration noise.")
+    sd_own: float = Field(description="Typical standard deviation of one calibration.")
+    nominal: float
+
+
+class Population(Answer):
+    """What the cameras of a SKU revision have in common."""
+
+    sku: str
+    revision: int
+    units: int = Field(description="Cameras that count.")
+    needed: int = Field(description="From how many on cameras are compared with the population.")
+    judged_by: int | None = Field(
+        description="Units of the state by which results are judged now; renewed at every tenth more."
+    )
+    judged_since: datetime | None
+    start_limits_used: float | None = Field(
+        description="Share of the start limits (focal length, centre) that mean and three sd take; above 1 "
+        "good cameras fail at them."
+    )
+    parameters: list[PopulationParameter] = Field(description="Empty before two units are known.")
+    covariance: list[list[float]] | None = Field(description="Between cameras, in the order of `parameters`.")
 
 
 class Sku(Answer):
@@ -108,6 +138,23 @@ def read_revision(code: SkuCode, number: RevisionNumber, caller: Viewer, db: Rea
 def read_limits(code: SkuCode, number: RevisionNumber, caller: Viewer, db: ReadDb) -> RevisionLimits:
     """Read the limits by which runs of a revision are judged: its own ones, and the defaults for the rest."""
     return RevisionLimits.model_validate({"limits": skus.read_limits(db, code, number)})
+
+
+@router.get("/{code}/population", summary="Read the population of a SKU")
+def read_population(
+    code: SkuCode,
+    caller: Viewer,
+    db: ReadDb,
+    revision: Annotated[
+        int | None, Query(ge=1, le=1_000_000, description="By default the published one, else the newest.")
+    ] = None,
+) -> Population:
+    """Read what the cameras of a revision have in common.
+
+    A camera counts by its latest production or retest run with the verdict PASS. From `needed` units on the
+    identity gate compares every camera with them; until then the start limits hold alone.
+    """
+    return Population.model_validate(population.read_population(db, code, revision))
 
 
 @router.post("/{code}/revisions/{number}/publish", summary="Publish a revision")

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from service.core.quality.limits import Limits
+from service.core.quality.population import Population
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
@@ -40,7 +41,9 @@ class Expectation:
     Zones are by default those of `coverage.py`, limits those of the image size. pose_of_view: for each
     detection in the order given, the index of the prescribed pose that it answers, or None; without it views
     are matched to their nearest poses. other_skus: nominals by code. used_for: by the content hash of an
-    image, another serial that it was used for.
+    image, another serial that it was used for. population_units: how many cameras of the SKU revision are
+    known, None where nobody counts them; population: what they have in common, once they are enough;
+    other_populations: those of other SKUs with this lens and image size, by code.
     """
 
     nominal: Intrinsics
@@ -51,16 +54,21 @@ class Expectation:
     pose_of_view: tuple[int | None, ...] | None = None
     other_skus: Mapping[str, Intrinsics] = field(default_factory=dict)
     used_for: Mapping[str, str] = field(default_factory=dict)
+    population_units: int | None = None
+    population: Population | None = None
+    other_populations: Mapping[str, Population] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Evidence:
     """All that the gates need: the views used, the images refused, the solve, the limits and the zones.
 
+    board: (n, 3) m, where the corners of the plate itself are: the target's, or those of its learnt shape.
     working_grid, valid_grid: (m, 2) px, points of the zones over which mapping errors are taken.
     """
 
     target: Target
+    board: Array
     views: tuple[NamedDetection, ...]
     refused: tuple[Refusal, ...]
     result: CalibrationResult

@@ -25,7 +25,7 @@ def measure_cross_check(evidence: Evidence) -> tuple[Measurement, ...]:
     """Return the measurements of the cross-check gate; none for fewer than eight views."""
     if len(evidence.views) < FEWEST_VIEWS or not evidence.result.converged:
         return ()
-    points = evidence.target.object_points
+    points = evidence.board
     views = [View(points[v.detection.corner_ids], v.detection.image_points, v.name) for v in evidence.views]
     return (_halves(evidence, views), _held_out(evidence, views))
 

@@ -4,6 +4,7 @@ An image without a board is refused and costs a clean PASS; one of another board
 because then nobody knows which board the other images show.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -28,6 +29,7 @@ def measure_frame(evidence: Evidence) -> tuple[Measurement, ...]:
         *_facing(evidence),
         _parity(evidence),
         _contrast(evidence),
+        *_saturation(evidence),
     )
 
 
@@ -79,7 +81,7 @@ def _facing(evidence: Evidence) -> tuple[Measurement, Measurement]:
     rotations, translations = stack_poses(evidence.result.poses)
     centres = rotations @ evidence.target.centre + translations
     sight = centres / np.linalg.norm(centres, axis=1, keepdims=True)
-    points = evidence.target.object_points @ np.swapaxes(rotations, 1, 2) + translations[:, None]
+    points = evidence.board @ np.swapaxes(rotations, 1, 2) + translations[:, None]
     facing = np.sum(rotations[:, :, 2] * sight, axis=1)
     depth = (points @ sight[:, :, None])[..., 0].min(axis=1)
     return (
@@ -139,4 +141,26 @@ def _contrast(evidence: Evidence) -> Measurement:
         bad=f"Dark and bright squares differ too little in {worst.name}.",
         remedy="Give more light or a longer exposure.",
         facts=some_views([worst.name]),
+    )
+
+
+def _saturation(evidence: Evidence) -> tuple[Measurement, ...]:
+    """Judge the most saturated view; nothing where no view tells, as in runs of before it was measured."""
+    known = [view for view in evidence.views if not math.isnan(view.detection.saturated_share)]
+    if not known:
+        return ()
+    worst = max(known, key=lambda view: view.detection.saturated_share)
+    return (
+        check_limit(
+            GATE,
+            "saturated_share",
+            worst.detection.saturated_share,
+            "<=",
+            evidence.limits.saturated_share,
+            share=evidence.limits.share("saturated_share"),
+            good="Hardly any bright square is saturated.",
+            bad=f"In {worst.name} bright squares are saturated, which hides how the light fell.",
+            remedy="Dim the lamp, shade the window or shorten the exposure, then take it again.",
+            facts=some_views([worst.name]),
+        ),
     )

@@ -19,7 +19,7 @@ LARGE_IMAGE_PX = (
 
 def _default_shares() -> dict[str, float]:
     """Shares where 0.8 does not suit: nothing covers more than 100 %, no lens has edges of 0 px,
-    and a pose within its tolerance was taken as asked.
+    a pose within its tolerance was taken as asked, and another SKU that is likelier at all is worth a look.
     """
     return {
         "coverage": 0.944,
@@ -27,6 +27,8 @@ def _default_shares() -> dict[str, float]:
         "edge_width_px": 0.9,
         "quadrant_ratio": 0.9,
         "monotone_ratio": 0.95,
+        "population_distance": 0.9,
+        "other_population": 0.0,
     }
 
 
@@ -40,6 +42,7 @@ class Limits:
 
     parity_separation: float = 0.35  # true boards have 0.50 or more, false finds 0.22 and less
     contrast: float = 40.0  # grey levels
+    saturated_share: float = 0.20  # of the bright squares; good light leaves less than 0.05, guidance 0.15
     edge_width_px: float = 3.0  # 10-90 %
     quadrant_ratio: float = 1.3
     match_share: float = 0.02  # of the image width, mean distance of the four outer corners
@@ -66,6 +69,8 @@ class Limits:
     held_out_ratio: float = 1.3
     focal_off_share: float = 0.02  # from the nominal
     centre_off_px: float = 25.0  # from the nominal; with pixels of 3 um the lens is 75 um off the sensor
+    population_distance: float = 27.9  # squared, of nine degrees of freedom: 1 good camera of 1000 is beyond
+    other_population: float = 10.0  # -2 ln of a likelihood ratio: e^5, or 150 to 1
     marginal: Mapping[str, float] = field(default_factory=_default_shares)
 
     def share(self, name: str) -> float:

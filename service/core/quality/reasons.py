@@ -22,6 +22,7 @@ class Reason(StrEnum):
     NEAREST_CORNER = "nearest_corner"
     PARITY_SEPARATION = "parity_separation"
     CONTRAST = "contrast"
+    SATURATED_SHARE = "saturated_share"
     EDGE_WIDTH = "edge_width_px"
     BLURRED_LENS = "blurred_lens"  # most views are blurred
     QUADRANT_RATIO = "quadrant_ratio"
@@ -53,6 +54,10 @@ class Reason(StrEnum):
     FOCAL_OFF_SHARE = "focal_off_share"
     CENTRE_OFF = "centre_off_px"
     OTHER_SKU = "other_sku"
+    POPULATION_UNITS = "population_units"
+    POPULATION_DISTANCE = "population_distance"
+    OTHER_POPULATION = "other_population"
+    OTHER_POPULATION_TWIN = "other_population_twin"  # no picture tells the two SKUs apart
     USED_ELSEWHERE = "used_elsewhere"
     PAPER_SCORE = "paper_score"
     NOMINAL_DIFFERENCE = "nominal_difference_px"

@@ -38,7 +38,7 @@ def explain_residuals(evidence: Evidence) -> Causes:
     count = sum(residual.size for residual in residuals)
     if total == 0.0:
         return Causes(0.0, 0.0, 0.0)
-    heights, by_board = _fit(evidence, len(evidence.target.object_points), _by_height(evidence))
+    heights, by_board = _fit(evidence, len(evidence.board), _by_height(evidence))
     _, by_lens = _fit(evidence, RINGS, _by_ring(evidence))
     return Causes(
         board_share=max(by_board / total - len(heights) / count, 0.0),
@@ -56,7 +56,7 @@ def _fit(evidence: Evidence, size: int, design: Design) -> tuple[Array, float]:
     rotations, translations = stack_poses(result.poses)
     normal, right = np.zeros((size, size)), np.zeros(size)
     for i, view in enumerate(evidence.views):
-        board = evidence.target.object_points[view.detection.corner_ids]
+        board = evidence.board[view.detection.corner_ids]
         _, _, by_pose = project_with_jacobians(
             result.intrinsics.lens,
             result.intrinsics.vector,
@@ -79,7 +79,7 @@ def _by_height(evidence: Evidence) -> Design:
 
     def design(i: int, by_point: Array) -> Array:
         ids = evidence.views[i].detection.corner_ids
-        columns = np.zeros((len(ids), 2, len(evidence.target.object_points)))
+        columns = np.zeros((len(ids), 2, len(evidence.board)))
         columns[np.arange(len(ids)), :, ids] = by_point @ rotations[i, :, 2]
         return columns
 

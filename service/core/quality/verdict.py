@@ -21,6 +21,7 @@ from service.core.quality.gates_fit import measure_fit
 from service.core.quality.gates_frame import measure_frame
 from service.core.quality.gates_identity import measure_identity
 from service.core.quality.gates_model import measure_model
+from service.core.quality.gates_population import measure_population
 from service.core.quality.gates_poses import measure_poses
 from service.core.quality.gates_score import Score, measure_score, score_against
 from service.core.quality.gates_sharpness import measure_sharpness
@@ -67,11 +68,13 @@ def calibrate_and_judge(
     *,
     fixed: Collection[str] = (),
     refused: Sequence[Refusal] = (),
+    board: Array | None = None,
 ) -> Judged:
     """Calibrate from detections and judge the outcome by every gate.
 
     refused: images that gave no detection; they count in the frame gate. Detections of another image size
-    than the SKU's (without SKU: than the majority's) join them. Gates that need a SKU are left out without an
+    than the SKU's (without SKU: than the majority's) join them. board: where the corners of the plate itself
+    are, (n, 3) m; by default where the target has them. Gates that need a SKU are left out without an
     expectation. Raises TooFewViews (naming each refused image with its reason) and DegenerateViews.
     """
     image_size = _image_size(detections, expectation)
@@ -84,11 +87,13 @@ def calibrate_and_judge(
     _check_enough(views, refusals)
     answers = expectation.pose_of_view if expectation else None
     nominal = expectation.nominal if expectation else None
+    corners = target.object_points if board is None else board
     result = calibrate_intrinsics(
-        _solver_views(views, target), image_size, lens, nominal=nominal, fixed=fixed
+        _solver_views(views, corners), image_size, lens, nominal=nominal, fixed=fixed
     )
     evidence = Evidence(
         target=target,
+        board=corners,
         views=views,
         refused=refusals,
         result=result,
@@ -119,6 +124,7 @@ def _judge(evidence: Evidence) -> Judged:
         *measure_cross_check(evidence),
         *measure_model(evidence),
         *measure_identity(evidence),
+        *measure_population(evidence),
         *measure_score(score),
     )
     return Judged(
@@ -135,9 +141,8 @@ def _judge(evidence: Evidence) -> Judged:
     )
 
 
-def _solver_views(views: Sequence[NamedDetection], target: Target) -> list[View]:
-    points = target.object_points
-    return [View(points[v.detection.corner_ids], v.detection.image_points, v.name) for v in views]
+def _solver_views(views: Sequence[NamedDetection], board: Array) -> list[View]:
+    return [View(board[v.detection.corner_ids], v.detection.image_points, v.name) for v in views]
 
 
 def _image_size(detections: Sequence[NamedDetection], expectation: Expectation | None) -> tuple[int, int]:

@@ -20,7 +20,8 @@ class Detection:
     """A target found in an image.
 
     image_points: (n, 2) px. corner_ids: (n,) indices into target.object_points. image_size: (width, height)
-    px. parity_separation and contrast: see `Parity`.
+    px. parity_separation and contrast: see `Parity`. saturated_share: of the bright squares; NaN where it was
+    not measured, as in captures of before.
     """
 
     image_points: Array
@@ -29,6 +30,7 @@ class Detection:
     sharpness: Sharpness
     parity_separation: float
     contrast: float
+    saturated_share: float = float("nan")
 
 
 def check_grey_image(image: NDArray[np.uint8]) -> NDArray[np.uint8]:

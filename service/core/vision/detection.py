@@ -23,7 +23,7 @@ def detect_target(image: NDArray[np.uint8], target: Target) -> Detection:
 
     All of them on a plain board, those that can be seen of a coded one. Raises TargetNotVisible when there is
     no target or too little of it (facts: corners_seen, corners_needed), WrongTarget when another one is
-    there, Unprocessable when the array is no grey image.
+    there, TargetOverexposed, Unprocessable when the array is no grey image.
     """
     if isinstance(target, Chessboard):
         return detect_chessboard(image, target)

@@ -26,7 +26,7 @@ from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.detected import SMALLEST_IMAGE_PX, Detection, check_grey_image
 from service.core.vision.grid_growth import complete_grid, measure_steps, room_px
-from service.core.vision.light import LightFall, even_out, fit_light, read_cells
+from service.core.vision.light import LightFall, check_exposure, even_out, fit_light, read_cells, saturated_share
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
 from service.core.vision.saddle import refine_saddles
@@ -51,7 +51,8 @@ def detect_chessboard(image: NDArray[np.uint8], target: Chessboard) -> Detection
 
     Raises TargetNotVisible when there is no board or not the whole of it (facts: corners_seen,
     corners_needed), WrongTarget when the board has more rows or columns than declared (facts: found_columns,
-    found_rows), Unprocessable when the array is no grey image.
+    found_rows), TargetOverexposed when most of its bright squares are saturated (facts: saturated_share),
+    Unprocessable when the array is no grey image.
     """
     image = check_grey_image(image)
     grid = _find_board(image, smooth(image, PROVING_SIGMA_PX), target)
@@ -62,6 +63,8 @@ def detect_chessboard(image: NDArray[np.uint8], target: Chessboard) -> Detection
     light = fit_light(cells)
     parity = measure_parity(cells, light)
     _check_parity(parity, target)
+    bright = cells.bright.reshape(target.rows - 1, target.columns - 1)
+    saturated = check_exposure(saturated_share(image, corners, bright))
     points = _refined(blurred, corners, light, sharpness, target)
     return Detection(
         image_points=points,
@@ -70,6 +73,7 @@ def detect_chessboard(image: NDArray[np.uint8], target: Chessboard) -> Detection
         sharpness=sharpness,
         parity_separation=parity.separation,
         contrast=parity.contrast,
+        saturated_share=saturated,
     )
 
 

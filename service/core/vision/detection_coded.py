@@ -18,7 +18,7 @@ from service.core.vision.coded_corners import (
     refine_corners,
 )
 from service.core.vision.detected import Detection, check_grey_image
-from service.core.vision.light import Cells, even_out, fit_light
+from service.core.vision.light import CLIPPED, Cells, check_exposure, even_out, fit_light
 from service.core.vision.marker_detection import (
     Markers,
     board_to_image,
@@ -48,7 +48,8 @@ def detect_coded(image: NDArray[np.uint8], target: CodedTarget) -> Detection:
     """Return the corners of a board that a grey image (h, w) shows, in ascending order.
 
     Raises TargetNotVisible (no markers, or fewer than 12 corners in three rows and columns), WrongTarget
-    (markers of another board or dictionary, or mirrored), Unprocessable when the array is no grey image.
+    (markers of another board or dictionary, or mirrored), TargetOverexposed when most bright places are saturated, Unprocessable when the array is no
+    grey image.
     """
     image = check_grey_image(image)
     markers = _find_board(image, target)
@@ -66,6 +67,7 @@ def detect_coded(image: NDArray[np.uint8], target: CodedTarget) -> Detection:
             "reflection or shadow edge on it.",
             parity_separation=round(parity.separation, 3),
         )
+    saturated = check_exposure(float(np.mean(cells.levels[cells.bright] >= CLIPPED)))
     even, origin = even_out(blurred, light, corners.points, margin_px=3 * DISC_RADII_PX[1])
     moved = Corners(corners.ids, corners.points - origin, corners.scale)
     final = refine_corners(even, moved, DISC_PER_EDGE_WIDTH * np.nan_to_num(sharpness.edge_width_px), target)
@@ -77,6 +79,7 @@ def detect_coded(image: NDArray[np.uint8], target: CodedTarget) -> Detection:
         sharpness=sharpness,
         parity_separation=parity.separation,
         contrast=parity.contrast,
+        saturated_share=saturated,
     )
 
 

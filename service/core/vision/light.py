@@ -1,19 +1,27 @@
-"""How light falls across a board: the grey levels of its bright and its dark squares as smooth surfaces.
+"""How light falls across a board: the grey levels of its bright and its dark squares as smooth surfaces, and
+how much of the bright ones is saturated.
 
 Light that falls off across a corner tilts the grey surface and moves its saddle point (by a tenth of a pixel
 under a lamp beside the lens); levels that are taken relative to both surfaces do not have that tilt.
-Not here: whether the squares alternate (`parity`).
+Saturation hides how the light fell. Not here: whether the squares alternate (`parity`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from service.core.vision.problems import TargetOverexposed
 from service.core.vision.sampling import FloatImage, sample_bilinear
 from service.core.vision.transforms import Array
 
 CELLS_FOR_CURVATURE = 10
+CLIPPED = (
+    254.0  # grey level; the whites of real pictures, and JPEG's ringing, reach 253 without being clipped
+)
+LARGEST_SATURATED_SHARE = 0.5  # above it the light on the board is not known any more
+PLACES = np.linspace(0.1, 0.9, 9)  # of a square, where clipping is looked for
 
 
 @dataclass(frozen=True)
@@ -53,6 +61,28 @@ def read_cells(blurred: FloatImage, corners: Array, dark_first: bool = True) -> 
     return Cells(centres.reshape(-1, 2), total.ravel() / 9.0, ((row + column) % 2 == dark_first).ravel())
 
 
+def saturated_share(
+    image: NDArray[np.uint8],
+    corners: Array,
+    bright: NDArray[np.bool_],
+    level: float = CLIPPED,
+    places: Sequence[float] | Array = PLACES,
+) -> float:
+    """Return the share of spots in the bright squares of an image (h, w) that have at least a grey level.
+
+    corners: (rows, columns, 2) px; bright: (rows - 1, columns - 1), which inner squares are bright; places:
+    where spots lie across and down each square, from 0 to 1.
+    """
+    a, b, c, d = (
+        part[bright] for part in (corners[:-1, :-1], corners[:-1, 1:], corners[1:, 1:], corners[1:, :-1])
+    )
+    across, down = (grid.reshape(-1, 1, 1) for grid in np.meshgrid(places, places))
+    top = a * (1.0 - across) + b * across
+    bottom = d * (1.0 - across) + c * across
+    spots = top * (1.0 - down) + bottom * down
+    return float(np.mean(sample_bilinear(image, spots[..., 0], spots[..., 1]) >= level))
+
+
 def fit_light(cells: Cells) -> LightFall:
     """Return the surfaces through the levels of bright and dark cells: planes where the cells are few."""
     middle = cells.centres.mean(axis=0)
@@ -83,6 +113,17 @@ def even_out(
     gap = np.maximum(gap, max(0.1 * float(np.median(gap)), 1e-3))
     part = blurred[low[1] : high[1], low[0] : high[0]]
     return np.asarray((part - dark) / gap, dtype=np.float32), low.astype(np.float64)
+
+
+def check_exposure(saturated: float) -> float:
+    """Return the saturated share of a target's bright squares; raises TargetOverexposed where it is most."""
+    if saturated > LARGEST_SATURATED_SHARE:
+        raise TargetOverexposed(
+            f"{saturated:.0%} of the board's bright squares are saturated. Dim the lamp, shade the window or "
+            "shorten the exposure, then take the image again.",
+            saturated_share=round(saturated, 3),
+        )
+    return saturated
 
 
 def _surface(c: Array, x: Array, y: Array) -> Array:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from service.core.vision.light import saturated_share
 from service.core.vision.sampling import sample_bilinear
 from service.core.vision.transforms import Array
 
@@ -42,20 +43,8 @@ def measure_look(image: NDArray[np.uint8], corners: Array, dark_first: bool) -> 
     return Look(
         edge_width_px=float(np.sqrt(max(width_sq, 0.0))),
         brightness=float(levels[bright].mean()),
-        glare_share=_glare_share(image, corners, bright),
+        glare_share=saturated_share(image, corners, bright, SATURATED, SPOTS),
     )
-
-
-def _glare_share(image: NDArray[np.uint8], corners: Array, bright: NDArray[np.bool_]) -> float:
-    """Return the share of saturated spots in the bright squares (rows - 1, columns - 1)."""
-    squares = [
-        part[bright] for part in (corners[:-1, :-1], corners[:-1, 1:], corners[1:, :-1], corners[1:, 1:])
-    ]
-    across, down = (grid.reshape(-1, 1, 1) for grid in np.meshgrid(SPOTS, SPOTS))
-    top = squares[0] * (1.0 - across) + squares[1] * across
-    bottom = squares[2] * (1.0 - across) + squares[3] * across
-    spots = top * (1.0 - down) + bottom * down
-    return float(np.mean(sample_bilinear(image, spots[..., 0], spots[..., 1]) >= SATURATED))
 
 
 def _edge_widths(image: NDArray[np.uint8], corners: Array) -> Array:

@@ -43,6 +43,18 @@ def test_an_upload_tells_what_was_seen(small_plant: Plant, run_id: str) -> None:
     assert small_plant.get(f"/captures/{capture['id']}").json() == capture
 
 
+def test_a_board_in_too_much_light_is_refused_with_what_to_do(small_plant: Plant, run_id: str) -> None:
+    glaring = np.where(seen() > 110, 255, seen()).astype(np.uint8)
+
+    refused = problem(small_plant.send(run_id, encode(glaring), pose_index=0), 422, "target-overexposed")
+
+    assert refused["facts"]["saturated_share"] > 0.9
+    assert "Dim the lamp" in refused["detail"]
+    assert small_plant.get(f"/runs/{run_id}").json()["captures"] == 0
+    accepted = small_plant.expect(201, small_plant.upload(run_id, 0))
+    assert accepted["saturated_share"] < 0.05
+
+
 def test_an_image_may_come_as_a_form(small_plant: Plant, run_id: str) -> None:
     files = {"image": ("first.png", picture(0), "image/png")}
 

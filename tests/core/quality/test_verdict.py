@@ -189,6 +189,17 @@ def test_dark_and_unclear_boards_are_named() -> None:
     assert judged.verdict is Verdict.FAIL
 
 
+def test_a_saturated_view_is_named_and_one_of_before_says_nothing() -> None:
+    unmeasured = see_poses()
+    assert "saturated_share" not in {one.name for one in judge(unmeasured).measurements}
+    for share, verdict in ((0.15, Verdict.PASS), (0.19, Verdict.MARGINAL), (0.21, Verdict.FAIL)):
+        views = list(unmeasured)
+        views[3] = replace(views[3], detection=replace(views[3].detection, saturated_share=share))
+        views[4] = replace(views[4], detection=replace(views[4].detection, saturated_share=0.01))
+        found = measured(judge(views), "saturated_share")
+        assert (found.verdict, found.facts["views"]) == (verdict, ["03.png"])
+
+
 def test_a_moved_corner_is_seen_though_the_rms_allows_it() -> None:
     views = see_poses()
     views[7] = moved(views[7], corner=20, by_px=4.0)

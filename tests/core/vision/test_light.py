@@ -1,6 +1,6 @@
 import numpy as np
 
-from service.core.vision.light import even_out, fit_light, read_cells
+from service.core.vision.light import even_out, fit_light, read_cells, saturated_share
 from service.core.vision.sampling import smooth
 from tests.core.vision.drawn_board import draw_board, to_image
 
@@ -31,3 +31,19 @@ def test_few_cells_are_fitted_by_planes() -> None:
     light = fit_light(read_cells(smooth(board.image(), 1.0), board.corners.reshape(3, 4, 2)))
     assert not light.bright[3:].any()
     assert not light.dark[3:].any()
+
+
+def test_the_saturated_share_is_that_of_the_bright_squares_only() -> None:
+    board = draw_board(tilt=0.0)
+    corners = board.corners.reshape(6, 9, 2)
+    row, column = np.indices((5, 8))
+    bright = (row + column) % 2 == 1
+    image = board.image()
+    glaring = np.full_like(image, 255)
+    assert saturated_share(image, corners, bright) == 0.0
+    assert saturated_share(glaring, corners, bright) == 1.0
+
+    left = np.arange(image.shape[1]) < corners[:, 4, 0].mean()
+    half = np.where((image > 128) & left, 255, image).astype(np.uint8)
+    assert saturated_share(half, corners, bright) == 0.5
+    assert saturated_share(half, corners, ~bright) < 0.02

@@ -25,6 +25,15 @@ def test_thinning_keeps_views_that_are_already_small() -> None:
     assert stack_views(views_of(LENS1, 3, seed=2)).thinned(16).counts == (16, 16, 16)
 
 
+def test_a_plate_need_not_be_quite_flat() -> None:
+    views = views_of(LENS1, 3, seed=2)
+    bowed = [
+        View(view.object_points + np.outer(view.object_points[:, 0] ** 2, [0, 0, 0.1]), view.image_points)
+        for view in views
+    ]
+    assert np.ptp(stack_views(bowed).object_points[..., 2]) > 0.001
+
+
 def test_two_views_are_too_few() -> None:
     with pytest.raises(TooFewViews) as caught:
         stack_views(views_of(LENS1, 2, seed=3))
@@ -36,7 +45,7 @@ def spoiled(kind: str) -> View:
     if kind == "nan":
         image[3, 1] = np.nan
     elif kind == "bent":
-        board[5, 2] = 0.001
+        board[5, 2] = 0.02
     elif kind == "line":
         image[:, 1] = 400.0
     elif kind == "few":

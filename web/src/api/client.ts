@@ -12,6 +12,7 @@ import type {
   PageRunSummary,
   PageSku,
   PageStationStanding,
+  Population,
   PoseSet,
   PoseSetRequested,
   PoseSetReview,
@@ -120,6 +121,10 @@ export function getSku(code: string, signal?: AbortSignal): Promise<SkuDetail> {
 
 export function getLimits(code: string, revision: number, signal?: AbortSignal): Promise<RevisionLimits> {
   return getJson(`${ROOT}/skus/${encodeURIComponent(code)}/revisions/${revision}/limits`, signal);
+}
+
+export function getPopulation(code: string, revision: number, signal?: AbortSignal): Promise<Population> {
+  return getJson(`${ROOT}/skus/${encodeURIComponent(code)}/population?revision=${revision}`, signal);
 }
 
 export function getPoseSets(

@@ -1,7 +1,7 @@
 // The run's images: a strip to choose from, the chosen one large, and what is known about it.
 import { type JSX } from "preact";
 import type { Capture, CaptureDetail, Result, ViewResult } from "../generated/api";
-import { fixed, significant, withUnit } from "../format/numbers";
+import { fixed, percent, significant, withUnit } from "../format/numbers";
 import { useImage } from "../shell/images";
 import type { Words } from "../words/en";
 import { words } from "../words/language";
@@ -149,5 +149,8 @@ function cornerFacts(detail: CaptureDetail, say: Words): Fact[] {
     { name: say.fact_corners, value: String(detail.corners.length) },
     { name: say.fact_contrast, value: withUnit(fixed(detail.contrast, 0), say.grey_levels) },
     { name: say.fact_parity, value: fixed(detail.parity_separation, 2) },
+    ...(detail.saturated_share === null
+      ? []
+      : [{ name: say.fact_saturated, value: percent(detail.saturated_share) }]),
   ];
 }

@@ -8,6 +8,7 @@ import { Empty, Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
 import { LimitsPanel } from "./limits_panel";
 import { NominalPanel } from "./nominal_panel";
+import { PopulationPanel } from "./population_panel";
 import { PoseSetView } from "./pose_set_view";
 import { PoseSetsPanel } from "./pose_sets_panel";
 import { PublicationTag } from "./publication_tag";
@@ -67,6 +68,7 @@ function Sku({ loaded: { sku, poseSets }, poseSet }: { loaded: Loaded; poseSet: 
         <div class="columns columns-sku">
           <NominalPanel document={revision.document} />
           <LimitsPanel code={sku.code} revision={revision.number} />
+          <PopulationPanel code={sku.code} revision={revision.number} />
           <PoseSetsPanel
             code={sku.code}
             poseSets={poseSets}

@@ -155,6 +155,8 @@ export interface CaptureDetail {
   sharpness: Sharpness;
   parity_separation: number;
   contrast: number;
+  /** Share of the bright squares that is saturated; null in captures of before. */
+  saturated_share: number | null;
 }
 
 /** What is known of a camera before one was calibrated: its field of view. */
@@ -395,6 +397,38 @@ export interface PlannedPose {
   tvec: [number, number, number];
   /** tl, tr, br, bl in the board's own order, px. */
   outer_corners: [number, number][];
+}
+
+/** What the cameras of a SKU revision have in common. */
+export interface Population {
+  sku: string;
+  revision: number;
+  /** Cameras that count. */
+  units: number;
+  /** From how many on cameras are compared with the population. */
+  needed: number;
+  /** Units of the state by which results are judged now; renewed at every tenth more. */
+  judged_by: number | null;
+  judged_since: string | null;
+  /**
+   * Share of the start limits (focal length, centre) that mean and three sd take; above 1 good cameras fail at them.
+   */
+  start_limits_used: number | null;
+  /** Empty before two units are known. */
+  parameters: PopulationParameter[];
+  /** Between cameras, in the order of `parameters`. */
+  covariance: number[][] | null;
+}
+
+/** A parameter of the lens over the cameras of a SKU revision. */
+export interface PopulationParameter {
+  name: string;
+  mean: number;
+  /** Standard deviation between cameras, without calibration noise. */
+  sd_between: number;
+  /** Typical standard deviation of one calibration. */
+  sd_own: number;
+  nominal: number;
 }
 
 /** An ordered set of poses. `poses` is empty as long as the job plans. */
@@ -856,7 +890,7 @@ export interface SkuDocument {
   /** Layout of the binary block for the camera's memory (docs/exports.md). */
   block_layout?: BlockLayout | null;
   /**
-   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
+   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, saturated_share, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px, population_distance, other_population; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
    */
   limits?: Record<string, unknown>;
 }

@@ -59,6 +59,9 @@ describe("the advice of a measurement", () => {
       bend: 0.2,
       share: 0.5,
       sku: "y",
+      units: 60,
+      parameter: "fx",
+      deviations: 5.1,
     };
     for (const [language, say] of [
       ["en", en],

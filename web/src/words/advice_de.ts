@@ -44,6 +44,12 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ views }: About) => `Dunkle und helle Felder unterscheiden sich zu wenig in: ${views}.`,
     remedy: "Mehr Licht geben oder länger belichten.",
   },
+  saturated_share: {
+    good: "Kaum ein helles Feld ist gesättigt.",
+    bad: ({ views }: About) =>
+      `Helle Felder sind gesättigt, sodass nicht mehr zu sehen ist, wie das Licht fiel: ${views}.`,
+    remedy: "Die Lampe dimmen, das Fenster verdunkeln oder kürzer belichten, dann noch einmal aufnehmen.",
+  },
   edge_width_px: {
     good: "Jede Ansicht ist scharf.",
     bad: ({ views }: About) => `Unscharf: ${views}.`,
@@ -210,6 +216,28 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     good: "Keine andere SKU passt besser zu dieser Kamera.",
     bad: ({ fact }: About) => `Diese Kamera sieht aus wie eine der SKU ${fact("sku")}.`,
     remedy: "Prüfen, welche Kamera eingebaut ist, und den Lauf für deren SKU öffnen.",
+  },
+  population_units: {
+    good: ({ fact }: About) =>
+      `${fact("count")} von ${fact("of")} Kameras dieser SKU-Revision sind bekannt; bis dahin gelten die Startgrenzen.`,
+  },
+  population_distance: {
+    good: ({ fact }: About) => `Diese Kamera ist wie die ${fact("units")} anderen ihrer SKU.`,
+    bad: ({ fact }: About) =>
+      `Diese Kamera ist anders als die ${fact("units")} anderen ihrer SKU: ${fact("parameter")} liegt ${fact("deviations")} Standardabweichungen daneben, weiter als jeder andere Parameter.`,
+    remedy:
+      "Prüfen, ob die Kamera von dieser SKU ist und ihr Objektiv richtig sitzt. Wurden Teile geändert, eine Revision der SKU anlegen: ihre Population beginnt neu.",
+  },
+  other_population: {
+    good: "Die angegebene SKU erklärt diese Kamera am besten.",
+    bad: ({ fact }: About) => `Diese Kamera ist weit eher eine der SKU ${fact("sku")}.`,
+    remedy: "Prüfen, welche Kamera verbaut ist, und den Lauf für deren SKU öffnen.",
+  },
+  other_population_twin: {
+    good: ({ fact }: About) =>
+      `Kameras der SKU ${fact("sku")} gleichen diesen so sehr, dass kein Bild sie unterscheidet.`,
+    bad: ({ fact }: About) => `Diese Kamera ist weit eher eine der SKU ${fact("sku")}.`,
+    remedy: "Prüfen, welche Kamera verbaut ist, und den Lauf für deren SKU öffnen.",
   },
   used_elsewhere: {
     good: "Kein Bild wurde für eine andere Seriennummer benutzt.",

@@ -32,6 +32,11 @@ export const adviceEn = {
     bad: ({ views }: About) => `Dark and bright squares differ too little in: ${views}.`,
     remedy: "Give more light or a longer exposure.",
   },
+  saturated_share: {
+    good: "Hardly any bright square is saturated.",
+    bad: ({ views }: About) => `Bright squares are saturated, which hides how the light fell: ${views}.`,
+    remedy: "Dim the lamp, shade the window or shorten the exposure, then take it again.",
+  },
   edge_width_px: {
     good: "Every view is sharp.",
     bad: ({ views }: About) => `Blurred: ${views}.`,
@@ -197,6 +202,28 @@ export const adviceEn = {
   other_sku: {
     good: "No other SKU is nearer to this camera.",
     bad: ({ fact }: About) => `This camera looks like one of SKU ${fact("sku")}.`,
+    remedy: "Check which camera is built in, and open the run for its SKU.",
+  },
+  population_units: {
+    good: ({ fact }: About) =>
+      `${fact("count")} of ${fact("of")} cameras of this SKU revision are known; until all are, its start limits hold.`,
+  },
+  population_distance: {
+    good: ({ fact }: About) => `This camera is like the ${fact("units")} others of its SKU.`,
+    bad: ({ fact }: About) =>
+      `This camera is unlike the ${fact("units")} others of its SKU: ${fact("parameter")} is ${fact("deviations")} standard deviations off, more than any other parameter.`,
+    remedy:
+      "Check that the camera is of this SKU and its lens sits right. If its parts have changed, add a revision of the SKU: its population starts anew.",
+  },
+  other_population: {
+    good: "The declared SKU explains this camera best.",
+    bad: ({ fact }: About) => `This camera is far likelier to be one of SKU ${fact("sku")}.`,
+    remedy: "Check which camera is built in, and open the run for its SKU.",
+  },
+  other_population_twin: {
+    good: ({ fact }: About) =>
+      `Cameras of SKU ${fact("sku")} are so much like these that no picture tells them apart.`,
+    bad: ({ fact }: About) => `This camera is far likelier to be one of SKU ${fact("sku")}.`,
     remedy: "Check which camera is built in, and open the run for its SKU.",
   },
   used_elsewhere: {

@@ -45,6 +45,11 @@ export const adviceZh: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ views }: About) => `黑白方格差别太小：${views}。`,
     remedy: "增加光照或延长曝光。",
   },
+  saturated_share: {
+    good: "几乎没有白色方格过曝。",
+    bad: ({ views }: About) => `白色方格过曝，看不出光照的分布：${views}。`,
+    remedy: "请调暗灯光、遮挡窗户或缩短曝光，然后重新拍摄。",
+  },
   edge_width_px: {
     good: "每个视图都清晰。",
     bad: ({ views }: About) => `模糊：${views}。`,
@@ -201,6 +206,26 @@ export const adviceZh: Record<keyof typeof adviceEn, Advice> = {
     good: "没有其他 SKU 更接近该相机。",
     bad: ({ fact }: About) => `该相机看起来属于 SKU ${fact("sku")}。`,
     remedy: "检查装的是哪种相机，并按其 SKU 开始标定。",
+  },
+  population_units: {
+    good: ({ fact }: About) =>
+      `此 SKU 版本已知 ${fact("count")} 台相机（需要 ${fact("of")} 台）；在此之前仅适用初始限值。`,
+  },
+  population_distance: {
+    good: ({ fact }: About) => `此相机与同 SKU 的 ${fact("units")} 台相机一致。`,
+    bad: ({ fact }: About) =>
+      `此相机与同 SKU 的 ${fact("units")} 台相机不一致：${fact("parameter")} 偏离 ${fact("deviations")} 个标准差，偏离最大。`,
+    remedy: "请检查相机是否属于此 SKU、镜头是否装正。若零件已更改，请新建 SKU 版本，其总体将重新统计。",
+  },
+  other_population: {
+    good: "所声明的 SKU 最符合此相机。",
+    bad: ({ fact }: About) => `此相机更可能属于 SKU ${fact("sku")}。`,
+    remedy: "请检查实际安装的相机，并为其 SKU 打开运行。",
+  },
+  other_population_twin: {
+    good: ({ fact }: About) => `SKU ${fact("sku")} 的相机与这些相机极为相似，任何图像都无法区分。`,
+    bad: ({ fact }: About) => `此相机更可能属于 SKU ${fact("sku")}。`,
+    remedy: "请检查实际安装的相机，并为其 SKU 打开运行。",
   },
   used_elsewhere: {
     good: "没有图像曾用于其他序列号。",

@@ -172,6 +172,7 @@ export const de: Words = {
   fact_view_max: "Größtes Residuum",
   fact_edge_width: "Kantenbreite 10–90 %",
   fact_contrast: "Kontrast",
+  fact_saturated: "Gesättigte helle Felder",
   fact_parity: "Paritätsabstand",
   fact_match_error: "Abweichung von der Pose",
   fact_distance: "Entfernung",
@@ -251,6 +252,17 @@ export const de: Words = {
   fact_yaw: "Drehung",
   fact_pitch: "Neigung",
   fact_roll: "Rollen",
+  population_title: "Population",
+  population_growing: (units: number, needed: number): string =>
+    `${units} von ${needed} Kameras sind bekannt; bis dahin gelten allein die Startgrenzen.`,
+  population_judging: (units: number): string =>
+    `Ergebnisse werden mit einem Stand von ${units} Kameras verglichen.`,
+  population_wide: (share: string): string =>
+    `Mittel und drei Standardabweichungen nehmen ${share} der Startgrenzen ein: gute Kameras scheitern an ihnen. Nennwert und Teile prüfen.`,
+  population_mean: "Mittel",
+  population_between: "Std.-Abw. zwischen",
+  population_own: "Std.-Abw. einer",
+  population_count: (units: number): string => `${units} Kameras`,
   limits_title: "Grenzen",
   limits_note: "der Prüfungen",
   limits_marginal: "GRENZWERTIG ab",

@@ -174,6 +174,8 @@ export const deKiosk: KioskWords = {
   told_pose_not_matched_do: "Erst in den gestrichelten Umriss bringen.",
   told_target_not_visible: "Das Target wurde nicht gefunden",
   told_target_not_visible_do: "Das ganze Target zeigen, bei gleichmäßigem Licht.",
+  told_target_overexposed: "Das Target ist überbelichtet",
+  told_target_overexposed_do: "Die Lampe dimmen oder das Fenster verdunkeln, dann noch einmal aufnehmen.",
   told_wrong_target: "Das ist ein anderes Target",
   told_wrong_target_do: "Das Target nehmen, das zu diesem Kameratyp gehört.",
   told_wrong_image_size: "Die Kamera sendet Bilder anderer Größe",

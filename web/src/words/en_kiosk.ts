@@ -167,6 +167,8 @@ export const enKiosk = {
   told_pose_not_matched_do: "Bring it into the dashed outline first.",
   told_target_not_visible: "The board was not found",
   told_target_not_visible_do: "Show the whole board, in even light.",
+  told_target_overexposed: "The board is overexposed",
+  told_target_overexposed_do: "Dim the lamp or shade the window, then capture again.",
   told_wrong_target: "This is another board",
   told_wrong_target_do: "Take the board that belongs to this camera type.",
   told_wrong_image_size: "The camera sends pictures of another size",

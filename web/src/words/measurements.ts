@@ -15,6 +15,11 @@ const NAMES: Readonly<Record<string, Name>> = {
   nearest_corner: { en: "Nearest corner in front", de: "Nächste Ecke vor der Kamera", zh: "最近角点在前方" },
   parity_separation: { en: "Black and white apart", de: "Abstand Schwarz–Weiß", zh: "黑白区分度" },
   contrast: { en: "Contrast", de: "Kontrast", zh: "对比度" },
+  saturated_share: {
+    en: "Saturated share of bright squares",
+    de: "Gesättigter Anteil heller Felder",
+    zh: "白色方格过曝比例",
+  },
   edge_width_px: { en: "Edge width 10–90 %", de: "Kantenbreite 10–90 %", zh: "边缘宽度 10–90 %" },
   quadrant_ratio: {
     en: "Worst quadrant / centre",
@@ -79,6 +84,21 @@ const NAMES: Readonly<Record<string, Name>> = {
     zh: "主点与标称之差",
   },
   other_sku: { en: "Nearer to another SKU", de: "Näher an einer anderen SKU", zh: "更接近其他 SKU" },
+  population_units: {
+    en: "Cameras known of the SKU",
+    de: "Bekannte Kameras der SKU",
+    zh: "已知的同 SKU 相机",
+  },
+  population_distance: {
+    en: "Distance from the SKU’s cameras (χ²)",
+    de: "Abstand von den Kameras der SKU (χ²)",
+    zh: "与同 SKU 相机的距离（χ²）",
+  },
+  other_population: {
+    en: "Likelier of another SKU (−2 ln)",
+    de: "Eher von einer anderen SKU (−2 ln)",
+    zh: "更可能属于其他 SKU（−2 ln）",
+  },
   used_elsewhere: {
     en: "Pictures of another serial",
     de: "Bilder einer anderen Seriennummer",
@@ -92,6 +112,7 @@ const UNITS: Readonly<Record<string, Name>> = {
   "grey levels": { en: "grey levels", de: "Graustufen", zh: "灰度级" },
   images: { en: "images", de: "Bilder", zh: "张图像" },
   poses: { en: "poses", de: "Posen", zh: "个位姿" },
+  units: { en: "units", de: "Stück", zh: "台" },
   squares: { en: "squares", de: "Felder", zh: "格" },
 };
 

@@ -162,6 +162,8 @@ export const zhKiosk: KioskWords = {
   told_pose_not_matched_do: "请先移到虚线框内。",
   told_target_not_visible: "未找到标定板",
   told_target_not_visible_do: "请露出整块标定板，光照要均匀。",
+  told_target_overexposed: "标定板过曝",
+  told_target_overexposed_do: "请调暗灯光或遮挡窗户，然后再拍一次。",
   told_wrong_target: "这是另一块标定板",
   told_wrong_target_do: "请使用该相机型号的标定板。",
   told_wrong_image_size: "相机的图像尺寸不符",
