@@ -263,7 +263,7 @@ class CertificateRow(Row):
     __tablename__ = "certificate"
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
-    run_id: Mapped[UUID] = mapped_column(_refers_to("run.id"), unique=True)
+    run_id: Mapped[UUID] = mapped_column(refers_to("run.id"), unique=True)
     key_id: Mapped[str]
     token: Mapped[str]
     created_at: Mapped[datetime]

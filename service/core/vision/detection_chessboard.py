@@ -26,7 +26,14 @@ from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.detected import SMALLEST_IMAGE_PX, Detection, check_grey_image
 from service.core.vision.grid_growth import complete_grid, measure_steps, room_px
-from service.core.vision.light import LightFall, check_exposure, even_out, fit_light, read_cells, saturated_share
+from service.core.vision.light import (
+    LightFall,
+    check_exposure,
+    even_out,
+    fit_light,
+    read_cells,
+    saturated_share,
+)
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
 from service.core.vision.saddle import refine_saddles

@@ -48,8 +48,8 @@ def detect_coded(image: NDArray[np.uint8], target: CodedTarget) -> Detection:
     """Return the corners of a board that a grey image (h, w) shows, in ascending order.
 
     Raises TargetNotVisible (no markers, or fewer than 12 corners in three rows and columns), WrongTarget
-    (markers of another board or dictionary, or mirrored), TargetOverexposed when most bright places are saturated, Unprocessable when the array is no
-    grey image.
+    (markers of another board or dictionary, or mirrored), TargetOverexposed when most bright places are
+    saturated, Unprocessable when the array is no grey image.
     """
     image = check_grey_image(image)
     markers = _find_board(image, target)
