@@ -1,6 +1,6 @@
 """Finished runs have a signed certificate.
 
-Revision 94d1e6b07a35, after b6c4f2a81d97, 2026-11-27 12:00 UTC.
+Revision 94d1e6b07a35, after 9c27b5e4f013, 2026-11-27 12:00 UTC.
 """
 
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ import sqlalchemy as sa
 from alembic import op
 
 revision: str = "94d1e6b07a35"
-down_revision: str | Sequence[str] | None = "b6c4f2a81d97"
+down_revision: str | Sequence[str] | None = "9c27b5e4f013"
 branch_labels: str | Sequence[str] | None = None
 depends_on: str | Sequence[str] | None = None
 
