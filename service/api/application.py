@@ -17,6 +17,7 @@ from service.api.rest import (
     pose_set_review,
     pose_sets,
     results,
+    run_comparison,
     runs,
     skus,
     stations,
@@ -54,6 +55,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     for resource in (
         runs,
         results,
+        run_comparison,
         vehicles,
         skus,
         pose_sets,
