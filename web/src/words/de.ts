@@ -2,6 +2,7 @@
 import { deKiosk } from "./de_kiosk";
 import { deHelp } from "./de_help";
 import { dePractice } from "./de_practice";
+import { deResults } from "./de_results";
 import { deReview } from "./de_review";
 import type { Words } from "./en";
 
@@ -9,6 +10,7 @@ export const de: Words = {
   ...deKiosk,
   ...deHelp,
   ...dePractice,
+  ...deResults,
   ...deReview,
 
   language: "Deutsch",

@@ -2,12 +2,14 @@
 import { enKiosk } from "./en_kiosk";
 import { enHelp } from "./en_help";
 import { enPractice } from "./en_practice";
+import { enResults } from "./en_results";
 import { enReview } from "./en_review";
 
 export const en = {
   ...enKiosk,
   ...enHelp,
   ...enPractice,
+  ...enResults,
   ...enReview,
 
   language: "English",

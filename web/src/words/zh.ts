@@ -3,12 +3,14 @@ import type { Words } from "./en";
 import { zhHelp } from "./zh_help";
 import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
+import { zhResults } from "./zh_results";
 import { zhReview } from "./zh_review";
 
 export const zh: Words = {
   ...zhHelp,
   ...zhKiosk,
   ...zhPractice,
+  ...zhResults,
   ...zhReview,
 
   language: "中文",
