@@ -9,27 +9,28 @@ from typing import Any
 from uuid import UUID
 
 import numpy as np
-from numpy.typing import NDArray
 from sqlalchemy.orm import Session
 
 from service.core.errors import StateForbids
 from service.core.planning.document import pose_from_dict
-from service.core.planning.image_maps import ImageGrid, measure_coverage, predict_map
+from service.core.planning.image_maps import measure_coverage
 from service.core.planning.information import pose_information
 from service.core.planning.pose_space import Poses
 from service.core.planning.prediction import free_parameters, predict_accuracy
 from service.core.planning.review import PoseReview, losses_without, review_poses
 from service.core.quality.coverage import covered_share, default_valid_region, default_working_zone
 from service.core.vision.camera import Intrinsics, project, unproject
+from service.core.vision.error_maps import predict_map
+from service.core.vision.image_grid import ImageGrid
 from service.core.vision.transforms import Array, stack_poses
 from service.core.vision.uncertainty import Region, mapping_error, parameter_metric, whole_image
 from service.storage.models import PoseSetRow, SkuRevisionRow, SkuRow
+from service.usecases.image_zones import Rows, rows_of
 from service.usecases.observation import number_or_null
 from service.usecases.pose_sets import get_pose_set
 from service.usecases.sku_document import Revision, SkuDocument
 from service.usecases.skus import SkuReference
 
-Rows = list[list[float | None]]
 SMALLEST_DEPTH = 0.05  # of a ray's length; flatter ones leave a picture of the space
 
 
@@ -210,8 +211,8 @@ def _maps(revision: Revision, promise: _Promise, zone: Region) -> MapsView:
     return MapsView(
         columns=grid.columns,
         rows=grid.rows,
-        sd_px=_rows(predicted.sd_px),
-        sd_mdeg=_rows(predicted.sd_mdeg),
+        sd_px=rows_of(predicted.sd_px),
+        sd_mdeg=rows_of(predicted.sd_mdeg),
         boards=covered.boards.tolist(),
         corners=covered.corners.tolist(),
     )
@@ -234,8 +235,3 @@ def _zone(revision: Revision, promise: _Promise, zone: Region) -> ZoneView:
         worst_px=number_or_null(promised.worst_px),
         covered_share=covered_share(pixels.reshape(-1, 2), zone),
     )
-
-
-def _rows(values: NDArray[np.float64]) -> Rows:
-    """Return values as JSON can say them, to five digits: a drawing needs no more."""
-    return [[None if not np.isfinite(v) else float(f"{v:.5g}") for v in row] for row in values]

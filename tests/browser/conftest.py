@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from service.demo.customer import Customer
+from tests.browser.access import Access
 from tests.browser.calibrated import Runs, make_runs
 from tests.browser.chromium import Watch, find_chromium, running_chromium
 from tests.browser.serving import Serving, prepare_service
@@ -68,6 +69,12 @@ def runs(serving: Serving) -> Runs:
 def watch() -> Watch:
     """What the page does behind its user's back."""
     return Watch()
+
+
+@pytest.fixture
+def access() -> Access:
+    """What axe finds on the pages that it is shown."""
+    return Access()
 
 
 @pytest.fixture

@@ -115,7 +115,9 @@ def test_images_and_drawings_are_really_drawn(page: Page, serving: Serving, runs
     assert _share_of(pixels_of(page.locator(".viewer canvas")), (255, 122, 47)) < 0.0001
     scatter = pixels_of(page.locator(".scatter canvas"))
     assert _share_of(scatter, (184, 67, 0)) > 0.002  # the chosen view's diamonds
-    assert len(np.unique(pixels_of(page.locator(".field canvas")).reshape(-1, 3), axis=0)) > 20
+    assert (
+        len(np.unique(pixels_of(page.locator(".residuals-panel .field canvas")).reshape(-1, 3), axis=0)) > 20
+    )
 
 
 def test_the_viewer_zooms_by_wheel_and_keys_and_reads_corners_out(
@@ -203,7 +205,7 @@ def test_a_vehicle_shows_its_runs_and_an_unknown_one_what_to_do(
     page.get_by_role("link", name="History of this vehicle").click()
 
     expect(page.get_by_role("heading", level=1)).to_contain_text("VIN-PASS-0001")
-    expect(page.get_by_role("row")).to_have_count(2)
+    expect(page.locator("table.runs").get_by_role("row")).to_have_count(2)
     page.goto(f"{serving.url}/#/vehicles/NOBODY")
     expect(page.get_by_role("alert")).to_contain_text("Serials are compared exactly")
 

@@ -11,7 +11,7 @@ from service.api.auth import Viewer
 from service.api.dependencies import ReadDb
 from service.api.shapes import Answer, Id
 from service.core.quality.gates import Verdict
-from service.usecases import results
+from service.usecases import result_maps, results
 
 router = APIRouter(tags=["Results"])
 
@@ -132,7 +132,46 @@ class Result(Answer):
     created_at: datetime
 
 
+Values = list[list[float | None]]
+
+
+class Rectangle(Answer):
+    """A part of the image, px."""
+
+    left_px: float
+    top_px: float
+    right_px: float
+    bottom_px: float
+
+
+class ResultMaps(Answer):
+    """The image cut into cells, values row by row from the top left.
+
+    The residuals' cells are larger than those of the expected error: each needs corners of its own.
+    """
+
+    run_id: UUID
+    image_size: tuple[int, int]
+    sd_px: Values = Field(
+        description="Expected error of the mapping, from the covariance; the best rotation for the working "
+        "zone is taken out. Null where the lens does not reach."
+    )
+    sd_mdeg: Values = Field(description="The same as an angle of the ray, thousandths of a degree.")
+    residual_rms_px: Values = Field(
+        description="Rms of the residuals of the corners in the cell; null where there was none."
+    )
+    corners: list[list[int]] = Field(description="How many corners that rms rests on.")
+    working_zone: Rectangle
+    valid_region: Rectangle
+
+
 @router.get("/runs/{run_id}/result", summary="Read the result of a run")
 def read_result(run_id: Id, caller: Viewer, db: ReadDb) -> Result:
     """Read the result; a run that is not finished has none (404)."""
     return Result.model_validate(results.read_result(db, run_id))
+
+
+@router.get("/runs/{run_id}/result/maps", summary="Read the error of a result over the image")
+def read_maps(run_id: Id, caller: Viewer, db: ReadDb) -> ResultMaps:
+    """Read where in the image the mapping is uncertain, and where the corners fit badly."""
+    return ResultMaps.model_validate(result_maps.read_maps(db, run_id))

@@ -16,7 +16,7 @@ from service.api.rest.results import Result
 from service.api.shapes import Answer, Id, Page, Request
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
-from service.usecases import finish, runs
+from service.usecases import finish, runs, shared_pictures
 from service.usecases.run_filter import RunFilter
 from service.usecases.text import Code
 
@@ -97,6 +97,17 @@ class RunDetail(RunSummary):
     result: Result | None
 
 
+class SharedPicture(Answer):
+    """A picture of the run that another run holds too: the same file, byte by byte."""
+
+    capture_id: UUID
+    number: int = Field(description="Of the capture within this run.")
+    other_run_id: UUID
+    other_serial: str
+    other_number: int
+    other_created_at: datetime
+
+
 def run_filter(
     *,
     serial: Annotated[str | None, Query(max_length=64, description="Only of exactly this serial.")] = None,
@@ -173,3 +184,9 @@ def finish_run(run_id: Id, caller: Operator, of: Of, now: Now) -> Result:
 def abort_run(run_id: Id, caller: Operator, db: Db, now: Now) -> RunDetail:
     """End an open run without a result. Its images stay; a new run starts afresh."""
     return RunDetail.model_validate(runs.abort_run(db, run_id, caller.name, now))
+
+
+@router.get("/{run_id}/shared-pictures", summary="List pictures that other runs hold too")
+def list_shared(run_id: Id, caller: Viewer, db: ReadDb) -> list[SharedPicture]:
+    """List where else the pictures of a run were used; a picture belongs to one camera."""
+    return [SharedPicture.model_validate(shared) for shared in shared_pictures.list_shared(db, run_id)]

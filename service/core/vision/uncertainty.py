@@ -111,12 +111,16 @@ def mapping_difference(a: Intrinsics, b: Intrinsics, grid: Region | Array) -> Ar
     reached = reach_share(b, rays) < 1.0
     out = np.full(len(pixels), np.nan)
     if np.count_nonzero(reached) >= 2:
-        out[reached] = np.linalg.norm(_best_turned(b, rays[reached], pixels[reached]), axis=-1)
+        _, left = best_turn(b, rays[reached], pixels[reached])
+        out[reached] = np.linalg.norm(left, axis=-1)
     return out
 
 
-def _best_turned(b: Intrinsics, rays: Array, pixels: Array) -> Array:
-    """Return pixels (m, 2) minus projections of rays (m, 3) by b, best turned (Gauss–Newton)."""
+def best_turn(b: Intrinsics, rays: Array, pixels: Array) -> tuple[Array, Array]:
+    """Return the rotation (3, 3) of rays (m, 3) that brings b's projections nearest to pixels (m, 2).
+
+    And the pixels minus those projections (m, 2), px (Gauss–Newton). b must reach all rays.
+    """
     R = np.eye(3)
     difference = np.empty_like(pixels)
     for _ in range(ROTATION_STEPS):
@@ -126,4 +130,4 @@ def _best_turned(b: Intrinsics, rays: Array, pixels: Array) -> Array:
         if np.abs(turn).max() < 1e-10:
             break
         R = rotation_matrix(turn) @ R
-    return difference
+    return R, difference

@@ -16,11 +16,15 @@ import type {
   PoseSet,
   PoseSetRequested,
   PoseSetReview,
+  ResultMaps,
   RevisionLimits,
+  RunComparison,
   RunDetail,
+  SharedPicture,
   SkuDetail,
   Station,
   Vehicle,
+  VehicleHistory,
   Yield,
 } from "../generated/api";
 
@@ -82,12 +86,28 @@ export function getRun(id: string, signal?: AbortSignal): Promise<RunDetail> {
   return getJson(`${ROOT}/runs/${encodeURIComponent(id)}`, signal);
 }
 
+export function getResultMaps(id: string, signal?: AbortSignal): Promise<ResultMaps> {
+  return getJson(`${ROOT}/runs/${encodeURIComponent(id)}/result/maps`, signal);
+}
+
+export function getComparison(a: string, b: string, signal?: AbortSignal): Promise<RunComparison> {
+  return getJson(`${ROOT}/runs/${encodeURIComponent(a)}/comparison/${encodeURIComponent(b)}`, signal);
+}
+
+export function getSharedPictures(id: string, signal?: AbortSignal): Promise<SharedPicture[]> {
+  return getJson(`${ROOT}/runs/${encodeURIComponent(id)}/shared-pictures`, signal);
+}
+
 export function getCapture(id: string, signal?: AbortSignal): Promise<CaptureDetail> {
   return getJson(`${ROOT}/captures/${encodeURIComponent(id)}`, signal);
 }
 
 export function getVehicle(serial: string, signal?: AbortSignal): Promise<Vehicle> {
   return getJson(`${ROOT}/vehicles/${encodeURIComponent(serial)}`, signal);
+}
+
+export function getHistory(serial: string, signal?: AbortSignal): Promise<VehicleHistory> {
+  return getJson(`${ROOT}/vehicles/${encodeURIComponent(serial)}/calibrations`, signal);
 }
 
 export function getStations(cursor: string | null, signal?: AbortSignal): Promise<PageStationStanding> {

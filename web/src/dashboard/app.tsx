@@ -6,6 +6,7 @@ import { KeyForm } from "../shell/key_form";
 import { route } from "./address";
 import type { Route } from "./route";
 import { ReviewPage } from "./review_page";
+import { RunComparisonPage } from "./run_comparison_page";
 import { RunPage } from "./run_page";
 import { RunsPage } from "./runs_page";
 import { SkuPage } from "./sku_page";
@@ -29,7 +30,9 @@ export function App(): JSX.Element {
 function Page({ route: to }: { route: Route }): JSX.Element {
   switch (to.page) {
     case "run":
-      return <RunPage id={to.id} />;
+      return <RunPage id={to.id} capture={to.capture} />;
+    case "compare":
+      return <RunComparisonPage key={`${to.a} ${to.b}`} a={to.a} b={to.b} />;
     case "vehicle":
       return <VehiclePage serial={to.serial} />;
     case "runs":

@@ -1,6 +1,6 @@
 // One capture large: where each corner was seen, where the calibration puts it, and the residual between, enlarged.
 import { type JSX } from "preact";
-import { useCallback, useMemo, useState } from "preact/hooks";
+import { useCallback, useEffect, useMemo, useState } from "preact/hooks";
 import type { Capture, CaptureDetail } from "../generated/api";
 import { drawCapture, type CaptureScene } from "../drawing/capture_drawing";
 import { Drawing, type Draw } from "../drawing/drawing";
@@ -10,6 +10,7 @@ import { fixed, signed } from "../format/numbers";
 import { useDrawable, useImage } from "../shell/images";
 import type { Words } from "../words/en";
 import { words } from "../words/language";
+import type { Spot } from "./run_residuals";
 import { useViewport, ZOOM_STEP } from "./use_viewport";
 
 const NO_CORNERS: readonly number[][] = [];
@@ -17,16 +18,19 @@ const NO_CORNERS: readonly number[][] = [];
 const REACH_PX = 18;
 /** A typical residual is drawn about this long, as a share of the image's width. */
 const ARROW_SHARE = 0.025;
+/** How large a corner is looked at that was chosen elsewhere, canvas px per image px. */
+const CORNER_SCALE = 8;
 
 type Layers = CaptureScene["show"];
 
-export function CaptureViewer({
-  capture,
-  detail,
-}: {
+interface Props {
   capture: Capture;
   detail: CaptureDetail | null;
-}): JSX.Element {
+  /** What was chosen elsewhere, such as a residual in a chart; it is looked at each time it is chosen. */
+  spot: Spot | null;
+}
+
+export function CaptureViewer({ capture, detail, spot }: Props): JSX.Element {
   const say = words.value;
   const [width, height] = capture.image_size;
   const imageSize = useMemo<Size>(() => ({ width, height }), [width, height]);
@@ -42,8 +46,14 @@ export function CaptureViewer({
     [detail],
   );
   const gain = chosenGain ?? gainFor(rmsOf(residuals), ARROW_SHARE * width);
-  const { view, pointer } = control;
-  const chosen = pointer === null ? null : nearest(detected, pointer, REACH_PX / view.scale);
+  const { view, pointer, lookAt } = control;
+  const held = spot?.captureId === capture.id ? spot.corner : null;
+  const target = held === null ? undefined : detected[held];
+  useEffect(() => {
+    if (target !== undefined) lookAt(target, CORNER_SCALE);
+  }, [spot, target, lookAt]);
+  const pointed = pointer === null ? null : nearest(detected, pointer, REACH_PX / view.scale);
+  const chosen = pointed ?? held;
 
   const draw = useCallback<Draw>(
     (context, size, colours) => {

@@ -7,9 +7,12 @@ import type { Words } from "../words/en";
 import { words } from "../words/language";
 import { CaptureViewer } from "./capture_viewer";
 import { Facts, type Fact } from "./facts";
+import { LongestResiduals } from "./longest_residuals";
 import { ResidualScatter } from "./residual_scatter";
-import type { Residuals } from "./run_residuals";
+import type { Residuals, RunCorner, Spot } from "./run_residuals";
 import { boardTiltDeg, distanceM } from "./view_pose";
+
+const NO_CORNERS: readonly RunCorner[] = [];
 
 interface Props {
   captures: readonly Capture[];
@@ -17,11 +20,16 @@ interface Props {
   detail: CaptureDetail | null;
   result: Result | null;
   residuals: Residuals;
-  onChoose: (id: string) => void;
+  /** Numbers of the captures by their ids. */
+  numbers: ReadonlyMap<string, number>;
+  spot: Spot | null;
+  onChoose: (spot: Spot) => void;
 }
 
-export function CapturesPanel({ captures, chosen, detail, result, residuals, onChoose }: Props): JSX.Element {
+export function CapturesPanel(props: Props): JSX.Element {
+  const { captures, chosen, detail, result, residuals, numbers, spot } = props;
   const say = words.value;
+  const onChoose = (captureId: string): void => props.onChoose({ captureId, corner: null });
   const at = captures.indexOf(chosen);
   const step = (by: number): void => {
     const next = captures[at + by];
@@ -62,16 +70,27 @@ export function CapturesPanel({ captures, chosen, detail, result, residuals, onC
         ))}
       </ol>
       <div class="columns columns-viewer">
-        <CaptureViewer capture={chosen} detail={detail} />
+        <CaptureViewer capture={chosen} detail={detail} spot={spot} />
         <div class="viewer-side">
           <Facts facts={factsOf(chosen, detail, view, say)} />
           {result !== null && (
-            <ResidualScatter
-              all={residuals.all}
-              chosen={residuals.byCapture.get(chosen.id) ?? []}
-              number={chosen.number}
-              sigma={result.sigma_px}
-            />
+            <>
+              <ResidualScatter
+                all={residuals.all}
+                chosen={residuals.byCapture.get(chosen.id) ?? NO_CORNERS}
+                number={chosen.number}
+                numbers={numbers}
+                sigma={result.sigma_px}
+                onChoose={props.onChoose}
+              />
+              <LongestResiduals
+                all={residuals.all}
+                numbers={numbers}
+                sigma={result.sigma_px}
+                spot={spot}
+                onChoose={props.onChoose}
+              />
+            </>
           )}
         </div>
       </div>

@@ -11,6 +11,9 @@ import { gateName, measurementName, unitName } from "../words/measurements";
 import { groupGates, type GateGroup } from "./reasons";
 import { StandingTag } from "./runs_table";
 
+/** Shares of the limit beyond this are only called many. */
+const MOST_WRITTEN = 10;
+
 export function GatesTable({ gates }: { gates: readonly Measurement[] }): JSX.Element {
   const say = words.value;
   const [onlyOpen, setOnlyOpen] = useState(false);
@@ -120,21 +123,27 @@ function sign(comparison: string): string {
 function Bar({ measurement, say }: { measurement: Measurement; say: Words }): JSX.Element | null {
   const share = usedShare(measurement.value, measurement.limit, measurement.comparison);
   if (share === null) return null;
-  const used = say.margin_used(Number.isFinite(share) ? percent(share) : "∞");
+  const written = Number.isFinite(share) && share < MOST_WRITTEN ? percent(share) : "≫ 100 %";
+  const used = say.margin_used(written);
   const tick = 100 * LIMIT_AT;
   return (
-    <svg class="margin-bar" viewBox="0 0 100 14" preserveAspectRatio="none" role="img" aria-label={used}>
-      <title>{used}</title>
-      <rect class="margin-ground" x="0" y="4" width="100" height="6" />
-      <rect class="margin-good" x="0" y="4" width={tick} height="6" />
-      <rect
-        class={`margin-value margin-${measurement.verdict}`}
-        x="0"
-        y="4"
-        width={100 * barEnd(share)}
-        height="6"
-      />
-      <rect class="margin-limit" x={tick - 0.7} y="0" width="1.4" height="14" />
-    </svg>
+    <span class="margin">
+      <svg class="margin-bar" viewBox="0 0 100 14" preserveAspectRatio="none" role="img" aria-label={used}>
+        <title>{used}</title>
+        <rect class="margin-ground" x="0" y="4" width="100" height="6" />
+        <rect class="margin-good" x="0" y="4" width={tick} height="6" />
+        <rect
+          class={`margin-value margin-${measurement.verdict}`}
+          x="0"
+          y="4"
+          width={100 * barEnd(share)}
+          height="6"
+        />
+        <rect class="margin-limit" x={tick - 0.7} y="0" width="1.4" height="14" />
+      </svg>
+      <span class="margin-share" aria-hidden="true">
+        {written}
+      </span>
+    </span>
   );
 }

@@ -3,10 +3,16 @@ import { type JSX } from "preact";
 import { useCallback, useRef, useState } from "preact/hooks";
 import { Drawing, type Draw } from "../drawing/drawing";
 import { drawHeatMap, drawScale } from "../drawing/heat_drawing";
-import { cellAt, centreOf, largestOf, type Cell, type Grid } from "../drawing/heat_grid";
+import { cellAt, centreOf, largestOf, type Cell, type Grid, type Zone } from "../drawing/heat_grid";
 import { fit, toImage } from "../drawing/viewport";
-import type { PoseSetReview } from "../generated/api";
 import { words } from "../words/language";
+
+/** The image that the grid lies over. */
+export interface HeatGround {
+  image_size: [number, number];
+  working_zone: Zone;
+  valid_region: Zone;
+}
 
 export interface HeatScale {
   ticks: readonly number[];
@@ -21,18 +27,20 @@ interface Props {
   label: string;
   grid: Grid;
   scale: HeatScale;
-  review: PoseSetReview;
+  ground: HeatGround;
+  /** What a cell without a value means. */
+  gaps: string;
   /** What is said of the cell under the pointer. */
   read: (cell: Cell) => string;
 }
 
-export function HeatFigure({ label, grid, scale, review, read }: Props): JSX.Element {
+export function HeatFigure({ label, grid, scale, ground, gaps, read }: Props): JSX.Element {
   const say = words.value;
   const place = useRef<HTMLDivElement>(null);
   const [cell, setCell] = useState<Cell | null>(null);
-  const [width, height] = review.image_size;
+  const [width, height] = ground.image_size;
   const end = scale.ticks.at(-1) ?? 1;
-  const { working_zone: workingZone, valid_region: validRegion } = review;
+  const { working_zone: workingZone, valid_region: validRegion } = ground;
   const drawMap = useCallback<Draw>(
     (context, size, colours) =>
       drawHeatMap(
@@ -66,7 +74,7 @@ export function HeatFigure({ label, grid, scale, review, read }: Props): JSX.Ele
       <figcaption>
         <span class="key muted">{say.review_key_zone}</span>
         <span class="key muted">{say.review_key_valid}</span>
-        {hasGaps && <span class="key muted">{say.heat_no_lens}</span>}
+        {hasGaps && <span class="key muted">{gaps}</span>}
         <span class="key heat-read">
           {cell !== null && at !== null && `${say.heat_at(Math.round(at.x), Math.round(at.y))} ${read(cell)}`}
         </span>

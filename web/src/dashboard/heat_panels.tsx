@@ -1,12 +1,12 @@
 // Coverage and predicted mapping error over the image: of one pose set, or of two on one common scale.
 import { type ComponentChildren, type JSX } from "preact";
 import { useMemo, useState } from "preact/hooks";
-import { largestOf, rangeWithin, scaleTicks, type Grid } from "../drawing/heat_grid";
-import { digitsOfStep } from "../drawing/scales";
+import { largestOf, scaleTicks, type Grid } from "../drawing/heat_grid";
 import type { PoseSetReview } from "../generated/api";
 import { fixed, significant } from "../format/numbers";
 import { language, words } from "../words/language";
 import { HeatFigure, type HeatScale } from "./heat_figure";
+import { errorScale, labelOf, largestWithin, UnitChoice, type ErrorUnit } from "./heat_scale";
 
 interface Props {
   reviews: readonly PoseSetReview[];
@@ -30,7 +30,8 @@ export function CoveragePanel({ reviews, names }: Props): JSX.Element {
           label={labelOf(say.heat_coverage, review, review.maps.boards, scale)}
           grid={review.maps.boards}
           scale={scale}
-          review={review}
+          ground={review}
+          gaps={say.heat_no_lens}
           read={({ row, column }) =>
             `${review.maps.boards[row]?.[column] ?? 0} ${say.heat_boards}, ${say.heat_corners(review.maps.corners[row]?.[column] ?? 0)}`
           }
@@ -43,36 +44,13 @@ export function CoveragePanel({ reviews, names }: Props): JSX.Element {
 export function ErrorPanel({ reviews, names }: Props): JSX.Element {
   const say = words.value;
   const spoken = language.value;
-  const [unit, setUnit] = useState<"px" | "mdeg">("px");
+  const [unit, setUnit] = useState<ErrorUnit>("px");
   const scale = useMemo<HeatScale>(() => {
-    const most = Math.max(
-      ...reviews.map(
-        (review) => rangeWithin(gridOf(review, unit), sizeOf(review), review.valid_region).largest,
-      ),
-    );
-    const ticks = scaleTicks(most);
-    const digits = digitsOfStep(ticks[1] ?? 1);
-    return {
-      ticks,
-      unit,
-      write: (value) => written(value, spoken),
-      writeTick: (value) => fixed(value, digits, spoken),
-    };
+    const most = Math.max(...reviews.map((review) => largestWithin(gridOf(review, unit), review)));
+    return errorScale(most, unit, spoken);
   }, [reviews, unit, spoken]);
   return (
-    <HeatPanel
-      title={say.heat_error}
-      names={names}
-      choice={
-        <span class="segments" role="group" aria-label={say.heat_unit}>
-          {(["px", "mdeg"] as const).map((name) => (
-            <button key={name} type="button" aria-pressed={name === unit} onClick={() => setUnit(name)}>
-              {name}
-            </button>
-          ))}
-        </span>
-      }
-    >
+    <HeatPanel title={say.heat_error} names={names} choice={<UnitChoice unit={unit} onChoose={setUnit} />}>
       {reviews.map((review) => {
         const grid = gridOf(review, unit);
         return (
@@ -81,7 +59,8 @@ export function ErrorPanel({ reviews, names }: Props): JSX.Element {
             label={labelOf(say.heat_error, review, grid, scale)}
             grid={grid}
             scale={scale}
-            review={review}
+            ground={review}
+            gaps={say.heat_no_lens}
             read={({ row, column }) => {
               const { sd_px, sd_mdeg } = review.maps;
               return `${significant(sd_px[row]?.[column])} px, ${significant(sd_mdeg[row]?.[column])} mdeg`;
@@ -124,21 +103,6 @@ function HeatPanel({ title, note, choice, names, children }: PanelProps): JSX.El
   );
 }
 
-function gridOf({ maps }: PoseSetReview, unit: "px" | "mdeg"): Grid {
+function gridOf({ maps }: PoseSetReview, unit: ErrorUnit): Grid {
   return unit === "px" ? maps.sd_px : maps.sd_mdeg;
-}
-
-function sizeOf({ image_size: [width, height] }: PoseSetReview): { width: number; height: number } {
-  return { width, height };
-}
-
-/** Short enough for a map: 0.043, 1.6, 12. */
-function written(value: number, spoken: string): string {
-  if (value === 0) return "0";
-  return fixed(value, value < 0.1 ? 3 : value < 1 ? 2 : value < 10 ? 1 : 0, spoken);
-}
-
-function labelOf(name: string, review: PoseSetReview, grid: Grid, scale: HeatScale): string {
-  const { least, largest } = rangeWithin(grid, sizeOf(review), review.valid_region);
-  return words.value.heat_label(name, scale.unit, scale.write(least), scale.write(largest));
 }

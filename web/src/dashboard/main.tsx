@@ -8,6 +8,7 @@ import "../look/drawings.css";
 import "../look/files.css";
 import "../look/plant.css";
 import "../look/review.css";
+import "../look/results.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
 import { showFirstTheme } from "../look/theme";

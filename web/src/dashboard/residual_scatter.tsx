@@ -1,29 +1,40 @@
 // The cloud of all residuals around zero, with those of the capture on show picked out.
 import { type JSX } from "preact";
 import { useCallback } from "preact/hooks";
-import { Drawing, type Draw } from "../drawing/drawing";
-import { rmsOf, scatterLimit, type CornerResidual } from "../drawing/residuals";
-import { drawScatter } from "../drawing/scatter_drawing";
+import type { Colours } from "../drawing/drawing";
+import { rmsOf, scatterLimit } from "../drawing/residuals";
+import { drawScatter, scatterFrame } from "../drawing/scatter_drawing";
+import type { Point, Size } from "../drawing/viewport";
 import { fixed } from "../format/numbers";
 import { language, words } from "../words/language";
+import { ResidualDrawing } from "./residual_drawing";
+import type { RunCorner, Spot } from "./run_residuals";
 
 interface Props {
-  all: readonly CornerResidual[];
-  chosen: readonly CornerResidual[];
+  all: readonly RunCorner[];
+  chosen: readonly RunCorner[];
   /** Number of the capture on show. */
   number: number;
+  numbers: ReadonlyMap<string, number>;
   sigma: number;
+  onChoose: (spot: Spot) => void;
 }
 
-export function ResidualScatter({ all, chosen, number, sigma }: Props): JSX.Element {
+export function ResidualScatter({ all, chosen, number, numbers, sigma, onChoose }: Props): JSX.Element {
   const say = words.value;
   const spoken = language.value;
-  const draw = useCallback<Draw>(
-    (context, size, colours) => {
-      const scene = { residuals: all, chosen, sigma, limit: scatterLimit(all, sigma) };
-      drawScatter(context, size, scene, colours, spoken);
+  const limit = scatterLimit(all, sigma);
+  const draw = useCallback(
+    (context: CanvasRenderingContext2D, size: Size, colours: Colours, pointed: RunCorner | null) =>
+      drawScatter(context, size, { residuals: all, chosen, pointed, sigma, limit }, colours, spoken),
+    [all, chosen, sigma, limit, spoken],
+  );
+  const placeOf = useCallback(
+    ({ du, dv }: RunCorner, size: Size): Point => {
+      const { zero, scale } = scatterFrame(size, limit);
+      return { x: zero.x + du * scale, y: zero.y + dv * scale };
     },
-    [all, chosen, sigma, spoken],
+    [limit],
   );
   return (
     <figure class="scatter-figure">
@@ -35,7 +46,15 @@ export function ResidualScatter({ all, chosen, number, sigma }: Props): JSX.Elem
         <span class="key key-chosen">◆ {say.scatter_selected(number)}</span>
         <span class="key key-ring">◌ {say.scatter_rings(fixed(sigma, 3))}</span>
       </figcaption>
-      <Drawing class="scatter" draw={draw} label={say.scatter_label(all.length, fixed(rmsOf(all), 3))} />
+      <ResidualDrawing
+        class="scatter"
+        corners={all}
+        placeOf={placeOf}
+        draw={draw}
+        label={say.scatter_label(all.length, fixed(rmsOf(all), 3))}
+        numbers={numbers}
+        onChoose={onChoose}
+      />
     </figure>
   );
 }

@@ -1,28 +1,33 @@
-// Residuals of all views: where they are in the image, and the rms of each view.
+// Residuals of all views: where they are in the image, pooled or view by view, and the rms of each view.
 import { type JSX } from "preact";
-import { useCallback } from "preact/hooks";
-import { Drawing, type Draw } from "../drawing/drawing";
-import { drawField } from "../drawing/field_drawing";
-import { gainFor, type CornerResidual } from "../drawing/residuals";
+import { useState } from "preact/hooks";
+import { gainFor } from "../drawing/residuals";
 import type { Capture, Result } from "../generated/api";
 import { words } from "../words/language";
-import type { Residuals } from "./run_residuals";
+import { PooledField, ViewFields } from "./residual_fields";
+import type { Residuals, Spot } from "./run_residuals";
 import { ViewsTable } from "./views_table";
 
 /** A typical residual is drawn about this long, as a share of the image's width. */
-const ARROW_SHARE = 0.025;
+const ARROW_SHARE = { pooled: 0.025, single: 0.06 };
 
 interface Props {
   result: Result;
   captures: readonly Capture[];
+  numbers: ReadonlyMap<string, number>;
   residuals: Residuals;
   chosenId: string;
-  onChoose: (id: string) => void;
+  onChoose: (spot: Spot) => void;
 }
 
-export function ResidualsPanel({ result, captures, residuals, chosenId, onChoose }: Props): JSX.Element {
+export function ResidualsPanel(props: Props): JSX.Element {
+  const { result, captures, numbers, residuals, chosenId, onChoose } = props;
   const say = words.value;
+  const [isPooled, setPooled] = useState(true);
   const { all, byCapture } = residuals;
+  const [width] = result.image_size;
+  const gain = gainFor(result.rms_px, (isPooled ? ARROW_SHARE.pooled : ARROW_SHARE.single) * width);
+  const drawn = { residuals, chosenId, numbers, imageSize: result.image_size, gain, onChoose };
   return (
     <section class="panel residuals-panel" aria-labelledby="residuals-title">
       <div class="panel-head">
@@ -33,37 +38,27 @@ export function ResidualsPanel({ result, captures, residuals, chosenId, onChoose
             : say.residuals_corners(all.length)}
         </span>
       </div>
-      <Field all={all} chosen={byCapture.get(chosenId) ?? []} result={result} />
-      <ViewsTable views={result.views} captures={captures} chosenId={chosenId} onChoose={onChoose} />
+      <figure class="field-figure">
+        <figcaption>
+          <h3>{say.field_title}</h3>
+          <span class="key muted">{say.field_gain(gain)}</span>
+          <span class="segments" role="group" aria-label={say.field_title}>
+            <button type="button" aria-pressed={isPooled} onClick={() => setPooled(true)}>
+              {say.field_pooled}
+            </button>
+            <button type="button" aria-pressed={!isPooled} onClick={() => setPooled(false)}>
+              {say.field_by_view}
+            </button>
+          </span>
+        </figcaption>
+        {isPooled ? <PooledField {...drawn} /> : <ViewFields {...drawn} />}
+      </figure>
+      <ViewsTable
+        views={result.views}
+        captures={captures}
+        chosenId={chosenId}
+        onChoose={(captureId) => onChoose({ captureId, corner: null })}
+      />
     </section>
-  );
-}
-
-interface FieldProps {
-  all: readonly CornerResidual[];
-  chosen: readonly CornerResidual[];
-  result: Result;
-}
-
-function Field({ all, chosen, result }: FieldProps): JSX.Element {
-  const say = words.value;
-  const [width, height] = result.image_size;
-  const gain = gainFor(result.rms_px, ARROW_SHARE * width);
-  const draw = useCallback<Draw>(
-    (context, size, colours) => {
-      drawField(context, size, { residuals: all, chosen, imageSize: { width, height }, gain }, colours);
-    },
-    [all, chosen, width, height, gain],
-  );
-  return (
-    <figure class="field-figure">
-      <figcaption>
-        <h3>{say.field_title}</h3>
-        <span class="key muted">{say.field_gain(gain)}</span>
-      </figcaption>
-      <div class="field" style={{ aspectRatio: `${width} / ${height}` }}>
-        <Drawing draw={draw} label={say.field_label(all.length)} />
-      </div>
-    </figure>
   );
 }

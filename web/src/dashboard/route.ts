@@ -3,7 +3,9 @@ import { filterFrom, queryOf, type RunFilter } from "./run_filter";
 
 export type Route =
   | { page: "runs"; filter: RunFilter }
-  | { page: "run"; id: string }
+  /** `capture`: number of the capture on show, or nothing. */
+  | { page: "run"; id: string; capture: string }
+  | { page: "compare"; a: string; b: string }
   | { page: "vehicle"; serial: string }
   | { page: "stations" }
   | { page: "skus" }
@@ -25,12 +27,13 @@ function runsRoute(query: URLSearchParams): Route {
 
 function listRoute(page: string, query: URLSearchParams): Route | null {
   if (page === "skus" || page === "stations") return { page };
+  if (page === "compare") return { page, a: query.get("a") ?? "", b: query.get("b") ?? "" };
   if (page !== "yield") return null;
   return { page, sku: query.get("sku") ?? "", station: query.get("station") ?? "" };
 }
 
 function oneRoute(page: string, name: string, query: URLSearchParams): Route | null {
-  if (page === "runs") return { page: "run", id: name };
+  if (page === "runs") return { page: "run", id: name, capture: query.get("capture") ?? "" };
   if (page === "vehicles") return { page: "vehicle", serial: name };
   if (page === "pose-sets") return { page: "poseSet", id: name, with: query.get("with") ?? "" };
   if (page === "skus") return { page: "sku", code: name, poseSet: query.get("pose_set") ?? "" };
@@ -40,7 +43,9 @@ function oneRoute(page: string, name: string, query: URLSearchParams): Route | n
 export function addressOf(route: Route): string {
   switch (route.page) {
     case "run":
-      return `#/runs/${encodeURIComponent(route.id)}`;
+      return withQuery(`#/runs/${encodeURIComponent(route.id)}`, { capture: route.capture });
+    case "compare":
+      return withQuery("#/compare", { a: route.a, b: route.b });
     case "vehicle":
       return `#/vehicles/${encodeURIComponent(route.serial)}`;
     case "poseSet":

@@ -9,6 +9,7 @@ import { useResource } from "../api/use_resource";
 import { clock } from "../format/times";
 import { Empty, Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
+import { CompareChosen } from "./compare_chosen";
 import { addressOf } from "./route";
 import { RunConditions } from "./run_conditions";
 import { queryOf, withCondition, type RunFilter } from "./run_filter";
@@ -66,6 +67,7 @@ function Runs({ page, filter, walk, onWalk }: RunsProps): JSX.Element {
   return (
     <section class="panel" aria-label={say.runs_title}>
       <RunsTable runs={page.items} />
+      <CompareChosen />
       {!(isFirst(walk) && page.next_cursor === null) && (
         <nav class="pages" aria-label={say.runs_page(walk.length)}>
           <button type="button" disabled={isFirst(walk)} onClick={() => onWalk(back(walk))}>

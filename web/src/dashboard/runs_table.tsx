@@ -7,6 +7,7 @@ import { standingOf, VerdictMark, type Standing } from "../shell/verdict_mark";
 import type { Words } from "../words/en";
 import { words } from "../words/language";
 import { purposeName } from "../words/measurements";
+import { chosenRuns, withRun } from "./chosen_runs";
 import { addressOf } from "./route";
 
 export function RunsTable({ runs }: { runs: readonly RunSummary[] }): JSX.Element {
@@ -15,6 +16,9 @@ export function RunsTable({ runs }: { runs: readonly RunSummary[] }): JSX.Elemen
     <table class="runs">
       <thead>
         <tr>
+          <th scope="col">
+            <span class="visually-hidden">{say.history_compare}</span>
+          </th>
           <th scope="col">{say.col_verdict}</th>
           <th scope="col">{say.col_serial}</th>
           <th scope="col">{say.col_sku}</th>
@@ -49,11 +53,23 @@ function RunRow({ run, say }: { run: RunSummary; say: Words }): JSX.Element {
   const at = run.finished_at ?? run.created_at;
   return (
     <tr>
+      <td class="choose">
+        {run.state === "finished" && (
+          <input
+            type="checkbox"
+            aria-label={say.pair_choose(run.serial, exactly(at))}
+            checked={chosenRuns.value.some(({ id }) => id === run.id)}
+            onChange={(event) => {
+              chosenRuns.value = withRun(chosenRuns.value, run, event.currentTarget.checked);
+            }}
+          />
+        )}
+      </td>
       <td>
         <StandingTag standing={standing} />
       </td>
       <th scope="row">
-        <a class="row-link serial" href={addressOf({ page: "run", id: run.id })}>
+        <a class="row-link serial" href={addressOf({ page: "run", id: run.id, capture: "" })}>
           {run.serial}
         </a>
       </th>

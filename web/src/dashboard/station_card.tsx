@@ -78,7 +78,7 @@ function LastRun({ run }: { run: RunSummary }): JSX.Element {
 
 function RunLink({ run }: { run: RunSummary }): JSX.Element {
   return (
-    <a class="serial" href={addressOf({ page: "run", id: run.id })}>
+    <a class="serial" href={addressOf({ page: "run", id: run.id, capture: "" })}>
       {run.serial}
     </a>
   );

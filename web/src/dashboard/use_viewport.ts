@@ -1,7 +1,7 @@
-// Zooming and moving an image by wheel, hand and keys. The arithmetic is in drawing/viewport.ts.
-import { type RefObject } from "preact";
+// Zooming and moving an image by wheel, hand, fingers and keys. The arithmetic is in drawing/viewport.ts.
 import { useCallback, useEffect, useMemo, useRef, useState } from "preact/hooks";
 import {
+  centredOn,
   fit,
   keepInside,
   moveBy,
@@ -11,6 +11,8 @@ import {
   type Size,
   type Viewport,
 } from "../drawing/viewport";
+import { within, type Move, type Place, type Zoom } from "./pointer_place";
+import { useHands } from "./use_hands";
 
 const WHEEL_RATE = 0.0016;
 export const ZOOM_STEP = 1.5;
@@ -18,11 +20,13 @@ const KEY_MOVE_PX = 60;
 
 export interface ViewportControl {
   view: Viewport;
-  place: RefObject<HTMLDivElement | null>;
+  place: Place;
   /** Pointer over the image, in image coordinates; null when it is elsewhere. */
   pointer: Point | null;
   setCanvas: (size: Size) => void;
   zoom: (factor: number, at?: Point) => void;
+  /** Puts a point of the image into the middle, so many canvas px per image px large. */
+  lookAt: (at: Point, scale: number) => void;
   showAll: () => void;
 }
 
@@ -47,10 +51,14 @@ export function useViewport(image: Size): ViewportControl {
     (by: Point) => setChosen((now) => moveBy(now ?? whole, by, image, canvas)),
     [canvas, image, whole],
   );
+  const lookAt = useCallback(
+    (at: Point, scale: number) => setChosen(centredOn(at, scale, image, canvas)),
+    [canvas, image],
+  );
   const showAll = useCallback(() => setChosen(null), []);
 
   useWheel(place, zoom);
-  useDrag(place, move, zoom);
+  useHands(place, move, zoom);
   useKeys(place, move, zoom, showAll);
   useEffect(() => {
     const element = place.current;
@@ -65,16 +73,7 @@ export function useViewport(image: Size): ViewportControl {
     };
   }, [view]);
 
-  return { view, place, pointer, setCanvas, zoom, showAll };
-}
-
-type Place = RefObject<HTMLDivElement | null>;
-type Zoom = (factor: number, at?: Point) => void;
-type Move = (by: Point) => void;
-
-function within(element: HTMLElement, event: MouseEvent): Point {
-  const box = element.getBoundingClientRect();
-  return { x: event.clientX - box.left - element.clientLeft, y: event.clientY - box.top - element.clientTop };
+  return { view, place, pointer, setCanvas, zoom, lookAt, showAll };
 }
 
 function useWheel(place: Place, zoom: Zoom): void {
@@ -89,26 +88,6 @@ function useWheel(place: Place, zoom: Zoom): void {
     element.addEventListener("wheel", turn, { passive: false });
     return () => element.removeEventListener("wheel", turn);
   }, [place, zoom]);
-}
-
-function useDrag(place: Place, move: Move, zoom: Zoom): void {
-  useEffect(() => {
-    const element = place.current;
-    if (element === null) return undefined;
-    const drag = (event: PointerEvent): void => {
-      if (element.hasPointerCapture(event.pointerId)) move({ x: event.movementX, y: event.movementY });
-    };
-    const grab = (event: PointerEvent): void => element.setPointerCapture(event.pointerId);
-    const closer = (event: MouseEvent): void => zoom(8, within(element, event));
-    element.addEventListener("pointerdown", grab);
-    element.addEventListener("pointermove", drag);
-    element.addEventListener("dblclick", closer);
-    return () => {
-      element.removeEventListener("pointerdown", grab);
-      element.removeEventListener("pointermove", drag);
-      element.removeEventListener("dblclick", closer);
-    };
-  }, [place, move, zoom]);
 }
 
 const KEY_MOVES: Readonly<Record<string, Point>> = {

@@ -1,10 +1,12 @@
-// One vehicle by its serial: all its runs, newest first.
+// One vehicle by its serial: all its runs, newest first, and its camera over time.
 import { type JSX } from "preact";
 import { useCallback } from "preact/hooks";
 import { getVehicle } from "../api/client";
 import { useResource } from "../api/use_resource";
 import { Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
+import { CompareChosen } from "./compare_chosen";
+import { VehicleHistories } from "./history_panel";
 import { RunsTable } from "./runs_table";
 import { useTitle } from "./use_title";
 
@@ -33,8 +35,10 @@ export function VehiclePage({ serial }: { serial: string }): JSX.Element {
       {vehicle.state === "ready" && (
         <section class="panel" aria-label={say.runs_title}>
           <RunsTable runs={vehicle.value.runs} />
+          <CompareChosen />
         </section>
       )}
+      {vehicle.state === "ready" && <VehicleHistories serial={serial} />}
     </>
   );
 }

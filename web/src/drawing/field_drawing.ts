@@ -7,6 +7,8 @@ import type { Point, Size } from "./viewport";
 export interface FieldScene {
   residuals: readonly CornerResidual[];
   chosen: readonly CornerResidual[];
+  /** The residual that is pointed at. */
+  pointed: CornerResidual | null;
   imageSize: Size;
   gain: number;
 }
@@ -21,6 +23,14 @@ export function drawField(
   drawFrame(context, scene.imageSize, at, colours);
   drawVectors(context, scene.residuals, scene.gain, at, colours("plot-point"), 1);
   drawVectors(context, scene.chosen, scene.gain, at, colours("plot-chosen"), 2);
+  if (scene.pointed !== null) {
+    const { x, y } = at(scene.pointed.reprojected);
+    context.strokeStyle = colours("ink");
+    context.lineWidth = 2;
+    context.beginPath();
+    context.arc(x, y, 7, 0, 2 * Math.PI);
+    context.stroke();
+  }
 }
 
 function drawVectors(

@@ -9,6 +9,8 @@ export interface ScatterScene {
   residuals: readonly CornerResidual[];
   /** Those of the view on show; drawn as diamonds over the others. */
   chosen: readonly CornerResidual[];
+  /** The residual that is pointed at. */
+  pointed: CornerResidual | null;
   sigma: number;
   /** Half width of the plot, px of residual. */
   limit: number;
@@ -23,13 +25,8 @@ export function drawScatter(
   colours: Colours,
   locale: string,
 ): void {
-  const side = Math.min(size.width - MARGIN.left - MARGIN.right, size.height - MARGIN.top - MARGIN.bottom);
+  const { side, scale, zero } = scatterFrame(size, scene.limit);
   if (side <= 0) return;
-  const scale = side / 2 / scene.limit;
-  const zero: Point = {
-    x: MARGIN.left + (size.width - MARGIN.left - MARGIN.right) / 2,
-    y: MARGIN.top + side / 2,
-  };
   drawGrid(context, zero, side, scene.limit, colours, locale);
   context.save();
   context.beginPath();
@@ -38,7 +35,43 @@ export function drawScatter(
   drawRings(context, zero, scene.sigma * scale, colours);
   drawDots(context, zero, scale, scene.residuals, colours("plot-point"));
   drawDiamonds(context, zero, scale, scene.chosen, colours("plot-chosen"), colours("panel"));
+  if (scene.pointed !== null) drawPointed(context, zero, scale, scene.pointed, colours("ink"));
   context.restore();
+}
+
+export interface ScatterFrame {
+  /** Side of the square plot, canvas px. */
+  side: number;
+  /** Canvas px per px of residual. */
+  scale: number;
+  /** Where the residual zero is. */
+  zero: Point;
+}
+
+export function scatterFrame(size: Size, limit: number): ScatterFrame {
+  const side = Math.min(size.width - MARGIN.left - MARGIN.right, size.height - MARGIN.top - MARGIN.bottom);
+  return {
+    side,
+    scale: side / 2 / limit,
+    zero: {
+      x: MARGIN.left + (size.width - MARGIN.left - MARGIN.right) / 2,
+      y: MARGIN.top + side / 2,
+    },
+  };
+}
+
+function drawPointed(
+  context: CanvasRenderingContext2D,
+  zero: Point,
+  scale: number,
+  { du, dv }: CornerResidual,
+  colour: string,
+): void {
+  context.strokeStyle = colour;
+  context.lineWidth = 2;
+  context.beginPath();
+  context.arc(zero.x + du * scale, zero.y + dv * scale, 7, 0, 2 * Math.PI);
+  context.stroke();
 }
 
 function drawGrid(

@@ -45,6 +45,13 @@ export function zoomAt(view: Viewport, at: Point, factor: number, image: Size, c
   return keepInside({ scale, left: held.x - at.x / scale, top: held.y - at.y / scale }, image, canvas);
 }
 
+/** Puts a point of the image into the middle, at a scale within the bounds. */
+export function centredOn(at: Point, scale: number, image: Size, canvas: Size): Viewport {
+  const bounded = Math.min(LARGEST_SCALE, Math.max(fit(image, canvas).scale, scale));
+  const [left, top] = [at.x - canvas.width / 2 / bounded, at.y - canvas.height / 2 / bounded];
+  return keepInside({ scale: bounded, left, top }, image, canvas);
+}
+
 /** Moves the image by canvas px, as a hand that drags it does. */
 export function moveBy(view: Viewport, by: Point, image: Size, canvas: Size): Viewport {
   const moved = { ...view, left: view.left - by.x / view.scale, top: view.top - by.y / view.scale };

@@ -159,6 +159,44 @@ export interface CaptureDetail {
   saturated_share: number | null;
 }
 
+/** The image of run a cut into cells, values row by row from the top left; null beyond a lens's reach. */
+export interface ComparedMaps {
+  /** Where b sees what a sees at the cell's centre, minus that pixel. */
+  offset_u_px: ((number | null)[])[];
+  offset_v_px: ((number | null)[])[];
+  distance_px: ((number | null)[])[];
+  /** The distance as an angle of the ray, thousandths of a degree. */
+  distance_mdeg: ((number | null)[])[];
+}
+
+/** A parameter of both runs. */
+export interface ComparedParameter {
+  name: string;
+  a: number;
+  b: number;
+  /** b minus a. */
+  difference: number;
+  /** Standard deviation of the difference; 0 where both are fixed. */
+  sd: number | null;
+  /** The difference in that sd; null where both are fixed. */
+  apart_sd: number | null;
+}
+
+/** How far the mappings are apart in a part of the image; null where a lens does not reach all of it. */
+export interface ComparedZone {
+  left_px: number;
+  top_px: number;
+  right_px: number;
+  bottom_px: number;
+  /** Root mean square of the distances. */
+  mean_px: number | null;
+  worst_px: number | null;
+  mean_mdeg: number | null;
+  worst_mdeg: number | null;
+  /** The root mean square that corner noise alone leads to between two such runs. */
+  expected_px: number | null;
+}
+
 /** What is known of a camera before one was calibrated: its field of view. */
 export interface DataSheetDocument {
   hfov_deg: number;
@@ -389,6 +427,19 @@ export interface PageTarget {
   items: Target[];
   /** Give it as `cursor` to go on; null: this was the last part. */
   next_cursor: string | null;
+}
+
+/** What one finished run of the serial came to. */
+export interface PastCalibration {
+  run_id: string;
+  created_at: string;
+  sku: string;
+  purpose: Purpose;
+  verdict: Verdict;
+  lens: string;
+  rms_px: number;
+  intrinsics: Record<string, number>;
+  sd: Record<string, number | null>;
 }
 
 /** A pose to take, and where the four outermost corners of the board lie in the image then. */
@@ -654,6 +705,14 @@ export interface Ready {
   checks: string[];
 }
 
+/** A part of the image, px. */
+export interface Rectangle {
+  left_px: number;
+  top_px: number;
+  right_px: number;
+  bottom_px: number;
+}
+
 /**
  * The new revision, a draft, with the set that is planned for it.
  *
@@ -707,6 +766,28 @@ export interface Result {
   agreement_px: number | null;
   versions: Record<string, string>;
   created_at: string;
+}
+
+/**
+ * The image cut into cells, values row by row from the top left.
+ *
+ * The residuals' cells are larger than those of the expected error: each needs corners of its own.
+ */
+export interface ResultMaps {
+  run_id: string;
+  image_size: [number, number];
+  /**
+   * Expected error of the mapping, from the covariance; the best rotation for the working zone is taken out. Null where the lens does not reach.
+   */
+  sd_px: ((number | null)[])[];
+  /** The same as an angle of the ray, thousandths of a degree. */
+  sd_mdeg: ((number | null)[])[];
+  /** Rms of the residuals of the corners in the cell; null where there was none. */
+  residual_rms_px: ((number | null)[])[];
+  /** How many corners that rms rests on. */
+  corners: number[][];
+  working_zone: Rectangle;
+  valid_region: Rectangle;
 }
 
 /** The image cut into cells, values row by row from the top left; null where the lens does not reach. */
@@ -775,6 +856,24 @@ export interface RevisionLimits {
 /** What an API key may do; operator < engineer < admin, the others stand beside them. */
 export type Role = "viewer" | "mes" | "operator" | "engineer" | "admin";
 
+/** Run b against run a; the zones are those of a's SKU revision, the best rotation is taken out. */
+export interface RunComparison {
+  a: string;
+  b: string;
+  lens_a: string;
+  lens_b: string;
+  image_size: [number, number];
+  /** Empty where the lens models differ. */
+  parameters: ComparedParameter[];
+  /**
+   * How far all free parameters are apart, in sd and per parameter: near 1 for noise alone; null where the lens models differ.
+   */
+  distance_sd: number | null;
+  maps: ComparedMaps;
+  working_zone: ComparedZone;
+  valid_region: ComparedZone;
+}
+
 /** A run with its images and, once finished, its result. */
 export interface RunDetail {
   id: string;
@@ -827,6 +926,17 @@ export interface RunSummary {
   rms_px: number | null;
   created_at: string;
   finished_at: string | null;
+}
+
+/** A picture of the run that another run holds too: the same file, byte by byte. */
+export interface SharedPicture {
+  capture_id: string;
+  /** Of the capture within this run. */
+  number: number;
+  other_run_id: string;
+  other_serial: string;
+  other_number: number;
+  other_created_at: string;
 }
 
 /** Widths of the board's edges, px; by image quadrant tl, tr, br, bl (null: too few edges). */
@@ -965,6 +1075,13 @@ export interface Vehicle {
   serial: string;
   runs: RunSummary[];
   latest_result: Result | null;
+}
+
+/** The calibrations of a serial over time. */
+export interface VehicleHistory {
+  serial: string;
+  /** Oldest first; of the latest 200. */
+  calibrations: PastCalibration[];
 }
 
 /** What is said about a measurement or a whole calibration, best first. */

@@ -50,7 +50,7 @@ interface Link {
 function linksOf(say: Words): Link[] {
   return [
     { name: say.nav_stations, href: "#/stations", pages: ["stations"] },
-    { name: say.nav_runs, href: "#/runs", pages: ["runs", "run", "vehicle"] },
+    { name: say.nav_runs, href: "#/runs", pages: ["runs", "run", "vehicle", "compare"] },
     { name: say.nav_skus, href: "#/skus", pages: ["skus", "sku", "poseSet"] },
     { name: say.nav_yield, href: "#/yield", pages: ["yield"] },
   ];

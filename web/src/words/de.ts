@@ -3,6 +3,7 @@ import { deKiosk } from "./de_kiosk";
 import { deFiles } from "./de_files";
 import { deHelp } from "./de_help";
 import { dePractice } from "./de_practice";
+import { deResults } from "./de_results";
 import { deReview } from "./de_review";
 import type { Words } from "./en";
 
@@ -11,6 +12,7 @@ export const de: Words = {
   ...deFiles,
   ...deHelp,
   ...dePractice,
+  ...deResults,
   ...deReview,
 
   language: "Deutsch",

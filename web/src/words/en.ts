@@ -3,6 +3,7 @@ import { enKiosk } from "./en_kiosk";
 import { enFiles } from "./en_files";
 import { enHelp } from "./en_help";
 import { enPractice } from "./en_practice";
+import { enResults } from "./en_results";
 import { enReview } from "./en_review";
 
 export const en = {
@@ -10,6 +11,7 @@ export const en = {
   ...enFiles,
   ...enHelp,
   ...enPractice,
+  ...enResults,
   ...enReview,
 
   language: "English",

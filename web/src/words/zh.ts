@@ -4,6 +4,7 @@ import { zhFiles } from "./zh_files";
 import { zhHelp } from "./zh_help";
 import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
+import { zhResults } from "./zh_results";
 import { zhReview } from "./zh_review";
 
 export const zh: Words = {
@@ -11,6 +12,7 @@ export const zh: Words = {
   ...zhHelp,
   ...zhKiosk,
   ...zhPractice,
+  ...zhResults,
   ...zhReview,
 
   language: "中文",

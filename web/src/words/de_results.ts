@@ -1,0 +1,66 @@
+// Every text in German around one result and two.
+import type { enResults } from "./en_results";
+
+export const deResults: typeof enResults = {
+  residual_press: "Ein Residuum anklicken zeigt sein Bild an dieser Stelle",
+  residual_at: (capture, corner, length) => `Aufnahme ${capture}, Ecke ${corner}: ${length} px`,
+  longest_title: "Längste Residuen",
+  longest_at: (capture, corner) => `Aufnahme ${capture}, Ecke ${corner}`,
+  field_pooled: "alle",
+  field_by_view: "je Ansicht",
+
+  maps_title: "Fehler über dem Bild",
+  maps_expected: "Erwarteter Abbildungsfehler",
+  maps_expected_note: "aus der Kovarianz",
+  maps_measured: "Gemessene Residuen",
+  maps_measured_note: "RMS je Feld",
+  maps_no_corner: "▨ keine Ecke",
+
+  shared_title: "Bilder, die auch andere Läufe haben",
+  shared_note: "dieselbe Datei, Byte für Byte",
+  shared_with: (count) => (count === 1 ? "1 Bild ist auch in" : `${count} Bilder sind auch in`),
+  shared_picture: (number, other) => `Aufnahme ${number} ist dort Aufnahme ${other}`,
+
+  history_title: "Verlauf von",
+  history_over_time: "Im Lauf der Zeit",
+  history_bars: "Balken ± 1 Standardabweichung",
+  history_caption: "Die Kalibrierungen dieser Seriennummer, die neueste zuerst",
+  history_chart: (name, count) => `${name} über ${count} Kalibrierungen; die Tabelle darunter hat die Zahlen`,
+  history_compare: "Vergleichen",
+  history_compare_with: (when) => `Mit dem Lauf von ${when} vergleichen`,
+  history_compare_previous: "Mit dem vorigen Lauf vergleichen",
+  history_this: "dieser Lauf",
+
+  pair_title: "Zwei Läufe",
+  pair_none: "Zwei Läufe wählen",
+  pair_none_detail:
+    "In der Liste der Läufe zwei fertige ankreuzen, oder im Verlauf eines Laufs einen wählen.",
+  pair_others: "Andere wählen",
+  pair_unfinished: (side) => `Lauf ${side} hat noch kein Ergebnis`,
+  pair_unfinished_detail: "Kameras und Prüfungen lassen sich vergleichen, wenn beide Läufe fertig sind.",
+  pair_sizes: (a, b) =>
+    `Die Bilder sind verschieden groß (A: ${a}, B: ${b} px). Ein Pixel des einen ist keines des anderen, deshalb lassen sich die Kameras nicht vergleichen.`,
+  pair_lenses: (a, b) =>
+    `Die Linsenmodelle sind verschieden (A: ${a}, B: ${b}). Ihre Parameter bedeuten Verschiedenes, deshalb werden nur die Abbildungen verglichen.`,
+  pair_conditions: "Bedingungen",
+  pair_differs: "verschieden",
+  pair_differs_key: "≠ verschieden",
+  pair_lens: "Linsenmodell",
+  pair_distance: (sd) => `alle zusammen ${sd} Standardabweichungen; 1 macht das Rauschen allein`,
+  pair_in_sd: "in Standardabweichungen beider",
+  pair_mapping: "Unterschied der Abbildungen",
+  pair_mapping_note: "wo B sieht, was A sieht; die beste Drehung ist herausgerechnet",
+  pair_mean: "Mittel (RMS)",
+  pair_worst: "Größter",
+  pair_expected: "Durch Rauschen allein",
+  pair_times: (times) => `Mittel ist ${times}×`,
+  pair_working_zone: "Arbeitszone",
+  pair_valid_region: "Gültigkeitsbereich",
+  pair_vectors: "→ von A nach B, im Gültigkeitsbereich",
+  pair_vectors_label: (count) => `${count} Vektoren über dem Bild, von A zu B für dasselbe Ding`,
+  pair_choose: (serial, when) => `Den Lauf von ${serial}, ${when}, zum Vergleich wählen`,
+  pair_chosen: (serials) => `Zum Vergleich: ${serials}`,
+  pair_one_more: "Noch einen Lauf wählen.",
+  pair_compare: "Die beiden vergleichen",
+  pair_let_go: "Auswahl aufheben",
+};

@@ -1,0 +1,66 @@
+// Every text in English around one result and two: residuals, errors over the image, history, comparison.
+export const enResults = {
+  residual_press: "Press a residual to see its image there",
+  residual_at: (capture: number, corner: number, length: string) =>
+    `Capture ${capture}, corner ${corner}: ${length} px`,
+  longest_title: "Longest residuals",
+  longest_at: (capture: number, corner: number) => `Capture ${capture}, corner ${corner}`,
+  field_pooled: "pooled",
+  field_by_view: "by view",
+
+  maps_title: "Error over the image",
+  maps_expected: "Expected mapping error",
+  maps_expected_note: "from the covariance",
+  maps_measured: "Measured residuals",
+  maps_measured_note: "rms by cell",
+  maps_no_corner: "▨ no corner",
+
+  shared_title: "Pictures that other runs hold too",
+  shared_note: "the same file, byte by byte",
+  shared_with: (count: number) => (count === 1 ? "1 picture is also in" : `${count} pictures are also in`),
+  shared_picture: (number: number, other: number) => `Capture ${number} is capture ${other} there`,
+
+  history_title: "History of",
+  history_over_time: "Over time",
+  history_bars: "bars ± 1 sd",
+  history_caption: "The calibrations of this serial, newest first",
+  history_chart: (name: string, count: number) =>
+    `${name} over ${count} calibrations; the table below has the numbers`,
+  history_compare: "Compare",
+  history_compare_with: (when: string) => `Compare with the run of ${when}`,
+  history_compare_previous: "Compare with the previous run",
+  history_this: "this run",
+
+  pair_title: "Two runs",
+  pair_none: "Choose two runs",
+  pair_none_detail: "Tick two finished runs in the list of runs, or choose one in the history of a run.",
+  pair_others: "Choose others",
+  pair_unfinished: (side: string) => `Run ${side} has no result yet`,
+  pair_unfinished_detail: "Cameras and gates can be compared when both runs are finished.",
+  pair_sizes: (a: string, b: string) =>
+    `The images differ in size (A: ${a}, B: ${b} px). A pixel of one is none of the other, so that the cameras cannot be compared.`,
+  pair_lenses: (a: string, b: string) =>
+    `The lens models differ (A: ${a}, B: ${b}). Their parameters mean different things, so that only the mappings are compared.`,
+  pair_conditions: "Conditions",
+  pair_differs: "differs",
+  pair_differs_key: "≠ differs",
+  pair_lens: "Lens model",
+  pair_distance: (sd: string) => `all together ${sd} sd apart; 1 is what noise alone makes`,
+  pair_in_sd: "in sd of both",
+  pair_mapping: "Difference of the mappings",
+  pair_mapping_note: "where B sees what A sees; the best rotation is taken out",
+  pair_mean: "Mean (rms)",
+  pair_worst: "Worst",
+  pair_expected: "By noise alone",
+  pair_times: (times: string) => `mean is ${times}×`,
+  pair_working_zone: "Working zone",
+  pair_valid_region: "Valid region",
+  pair_vectors: "→ from A to B, within the valid region",
+  pair_vectors_label: (count: number) =>
+    `${count} vectors over the image, from where A sees a thing to where B does`,
+  pair_choose: (serial: string, when: string) => `Choose the run of ${serial}, ${when}, to compare it`,
+  pair_chosen: (serials: string) => `To compare: ${serials}`,
+  pair_one_more: "Choose one more run.",
+  pair_compare: "Compare the two",
+  pair_let_go: "Let go",
+};
