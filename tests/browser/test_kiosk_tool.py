@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.axe import Access
 from tests.browser.chromium import Watch, find_chromium
 from tests.browser.kiosk_station import (
     open_kiosk,
@@ -19,7 +20,6 @@ from tests.browser.kiosk_station import (
 )
 from tests.browser.serving import Serving, prepare_service
 
-AXE = Path(__file__).resolve().parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
 # Fast hands: what is looked at here does not depend on how they move.
 SPEED = 12.0
 POSES = 4
@@ -28,12 +28,6 @@ LIMITS = {"coverage": 0.1, "half_difference": 9.0, "held_out_ratio": 9.0}
 SMALLEST_BUTTON = """Math.min(...[...document.querySelectorAll('.kiosk button')]
     .filter(button => button.offsetParent !== null)
     .flatMap(button => [button.getBoundingClientRect().height, button.getBoundingClientRect().width]))"""
-LOOK = """async () => {
-    const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
-    const { violations } = await axe.run(document, { resultTypes: ['violations'], runOnly: tags });
-    return violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) =>
-        `${id}: ${target.join(' ')}: ${failureSummary.split('\\n')[1]?.trim()}`));
-}"""
 # Without a sound card nobody hears whether one instruction runs over another one.
 RECORDED_VOICE = """
     window.said = [];
@@ -66,22 +60,6 @@ def abort(page: Page) -> None:
     page.get_by_role("button", name="Abort", exact=False).click()
     page.get_by_role("button", name="Abort the run").click()
     expect(page.get_by_label("Serial", exact=True)).to_be_visible()
-
-
-class Access:
-    """What axe finds on screens, by the rules of WCAG 2.2 AA and best practice, in light and in dark."""
-
-    def __init__(self) -> None:
-        self.found: list[str] = []
-
-    def look(self, page: Page, where: str) -> None:
-        """Let axe look at what is on show."""
-        if not page.evaluate("'axe' in window"):
-            page.evaluate(AXE.read_text())
-        for theme in ("light", "dark"):
-            page.evaluate("theme => document.documentElement.dataset.theme = theme", theme)
-            self.found += [f"{where}, {theme}: {one}" for one in page.evaluate(LOOK)]
-        page.evaluate("delete document.documentElement.dataset.theme")
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@ import type {
   PageRunSummary,
   PageSku,
   PageStationStanding,
+  PageTarget,
   PoseSet,
   PoseSetRequested,
   PoseSetReview,
@@ -17,6 +18,7 @@ import type {
   RunDetail,
   SkuDetail,
   Station,
+  TargetPattern,
   Vehicle,
   Yield,
 } from "../generated/api";
@@ -144,15 +146,38 @@ export function retirePoseSet(id: string): Promise<PoseSet> {
   return postJson(`${ROOT}/pose-sets/${encodeURIComponent(id)}/retire`);
 }
 
-/** The file of a pose set, and the name that the service gives it. */
-export async function exportPoseSet(id: string): Promise<{ name: string; content: Blob }> {
-  const answer = await request(`${ROOT}/pose-sets/${encodeURIComponent(id)}/export`);
+/** A file, and the name that the service gives it. */
+export interface NamedFile {
+  name: string;
+  content: Blob;
+}
+
+export function exportPoseSet(id: string): Promise<NamedFile> {
+  return getFile(`${ROOT}/pose-sets/${encodeURIComponent(id)}/export`, "pose-set.json");
+}
+
+async function getFile(path: string, otherwise: string): Promise<NamedFile> {
+  const answer = await request(path);
   const name = /filename="([^"]+)"/.exec(answer.headers.get("Content-Disposition") ?? "")?.[1];
-  return { name: name ?? "pose-set.json", content: await answer.blob() };
+  return { name: name ?? otherwise, content: await answer.blob() };
 }
 
 export function importPoseSet(code: string, revision: number, document: unknown): Promise<PoseSetRequested> {
   return postJson(`${ROOT}/skus/${encodeURIComponent(code)}/revisions/${revision}/pose-sets`, document);
+}
+
+export function getTargets(cursor: string | null, signal?: AbortSignal): Promise<PageTarget> {
+  return getJson(partPath("/targets", cursor), signal);
+}
+
+export function getPattern(spec: string, signal?: AbortSignal): Promise<TargetPattern> {
+  return getJson(`${ROOT}/targets/pattern?${new URLSearchParams({ spec }).toString()}`, signal);
+}
+
+/** A target's sheet to print; `paper` as the service names it, or auto. */
+export function getSheet(spec: string, format: "pdf" | "svg", paper: string): Promise<NamedFile> {
+  const query = new URLSearchParams({ spec, format, paper });
+  return getFile(`${ROOT}/targets/sheet?${query.toString()}`, `target.${format}`);
 }
 
 export function getYield(sku: string, station: string, signal?: AbortSignal): Promise<Yield> {

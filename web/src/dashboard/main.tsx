@@ -7,6 +7,7 @@ import "../look/run.css";
 import "../look/drawings.css";
 import "../look/plant.css";
 import "../look/review.css";
+import "../look/targets.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
 import { showFirstTheme } from "../look/theme";

@@ -9,6 +9,8 @@ export type Route =
   | { page: "skus" }
   | { page: "poseSet"; id: string; with: string }
   | { page: "sku"; code: string; poseSet: string }
+  | { page: "targets" }
+  | { page: "target"; spec: string }
   | { page: "yield"; sku: string; station: string };
 
 export function parseRoute(hash: string): Route {
@@ -24,13 +26,14 @@ function runsRoute(query: URLSearchParams): Route {
 }
 
 function listRoute(page: string, query: URLSearchParams): Route | null {
-  if (page === "skus" || page === "stations") return { page };
+  if (page === "skus" || page === "stations" || page === "targets") return { page };
   if (page !== "yield") return null;
   return { page, sku: query.get("sku") ?? "", station: query.get("station") ?? "" };
 }
 
 function oneRoute(page: string, name: string, query: URLSearchParams): Route | null {
   if (page === "runs") return { page: "run", id: name };
+  if (page === "targets") return { page: "target", spec: name };
   if (page === "vehicles") return { page: "vehicle", serial: name };
   if (page === "pose-sets") return { page: "poseSet", id: name, with: query.get("with") ?? "" };
   if (page === "skus") return { page: "sku", code: name, poseSet: query.get("pose_set") ?? "" };
@@ -43,6 +46,8 @@ export function addressOf(route: Route): string {
       return `#/runs/${encodeURIComponent(route.id)}`;
     case "vehicle":
       return `#/vehicles/${encodeURIComponent(route.serial)}`;
+    case "target":
+      return `#/targets/${encodeURIComponent(route.spec)}`;
     case "poseSet":
       return withQuery(`#/pose-sets/${encodeURIComponent(route.id)}`, { with: route.with });
     case "sku":
@@ -55,6 +60,7 @@ export function addressOf(route: Route): string {
     }
     case "skus":
     case "stations":
+    case "targets":
       return `#/${route.page}`;
   }
 }

@@ -3,6 +3,7 @@ import { deKiosk } from "./de_kiosk";
 import { deHelp } from "./de_help";
 import { dePractice } from "./de_practice";
 import { deReview } from "./de_review";
+import { deTargets } from "./de_targets";
 import type { Words } from "./en";
 
 export const de: Words = {
@@ -10,6 +11,7 @@ export const de: Words = {
   ...deHelp,
   ...dePractice,
   ...deReview,
+  ...deTargets,
 
   language: "Deutsch",
   product: "dmscal",

@@ -3,12 +3,14 @@ import { enKiosk } from "./en_kiosk";
 import { enHelp } from "./en_help";
 import { enPractice } from "./en_practice";
 import { enReview } from "./en_review";
+import { enTargets } from "./en_targets";
 
 export const en = {
   ...enKiosk,
   ...enHelp,
   ...enPractice,
   ...enReview,
+  ...enTargets,
 
   language: "English",
   product: "dmscal",

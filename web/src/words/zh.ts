@@ -4,12 +4,14 @@ import { zhHelp } from "./zh_help";
 import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
 import { zhReview } from "./zh_review";
+import { zhTargets } from "./zh_targets";
 
 export const zh: Words = {
   ...zhHelp,
   ...zhKiosk,
   ...zhPractice,
   ...zhReview,
+  ...zhTargets,
 
   language: "中文",
   product: "dmscal",
