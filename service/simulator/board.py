@@ -1,4 +1,4 @@
-"""The share of every pixel that shows a plate and its dark squares. Not here: what is behind it."""
+"""The share of every pixel that shows a plate and what is printed on it. Not here: what is behind it."""
 
 from dataclasses import dataclass
 
@@ -7,23 +7,19 @@ from numpy.typing import NDArray
 
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array
-from service.simulator.coverage import Steps, integrate_product
+from service.simulator.coverage import Steps, box_steps, integrate_product
+from service.simulator.pattern import Levels, Pattern, make_pattern
+from service.simulator.soft_edges import footprint_of, soft_window
 
 FINEST_SPLIT = 16
 
 
 @dataclass(frozen=True)
 class Plate:
-    """A target's pattern as step functions of u and v, in squares from corner 0.
-
-    The squares reach from -1 to columns (u) and rows (v), the plate border_squares farther; the square
-    between (-1, -1) and (0, 0) is dark. With a window w (1 on the squares) and a wave s (±1 on them) the dark
-    share is ½ (w(u) w(v) + s(u) s(v)).
-    """
+    """A white plate by its outline as step functions of u and v, squares from feature 0, and its print."""
 
     outline: tuple[Steps, Steps]
-    window: tuple[Steps, Steps]
-    wave: tuple[Steps, Steps]
+    pattern: Pattern
 
     @property
     def reach(self) -> tuple[Array, Array]:
@@ -32,25 +28,39 @@ class Plate:
         return self.outline[0].edges + beside, self.outline[1].edges + beside
 
     def sample(self, uv: Array) -> tuple[Array, Array]:
-        """Return whether points (n, 2), squares, lie on the plate and in a dark square: 0 or 1 each (n,)."""
-        plate, window = (_within(steps, uv) for steps in (self.outline, self.window))
-        column, row = (np.floor(uv[:, axis]).astype(np.int32) for axis in range(2))
-        dark = window & ((column ^ row) & 1 == 0)
-        return plate.astype(np.float64), dark.astype(np.float64)
+        """Return whether points (n, 2), squares, lie on the plate and in the print: 0 or 1 each (n,)."""
+        plate = _within(self.outline, uv)
+        return plate.astype(np.float64), self.pattern.sample(uv).astype(np.float64)
+
+    def near_edge(self, uv: Array, half: Array) -> NDArray[np.bool_]:
+        """Return whether an edge may lie within half (n, 2) of points (n, 2), squares."""
+        near = self.pattern.near_edge(uv, half)
+        for axis, steps in enumerate(self.outline):
+            beside = np.abs(uv[:, axis] - steps.edges.mean()) - 0.5 * np.ptp(steps.edges)
+            near |= np.abs(beside) < half[:, axis]
+        return near
 
     def shares(self, uv: Array, jacobian: Array) -> tuple[Array, Array]:
-        """Return the shares (n,) of pixels that show the plate, and its dark squares.
+        """Return the shares (n,) of pixels that show the plate, and its print.
 
         uv: (n, 2) squares at the pixel's centre; jacobian: (n, 2, 2) d(u, v)/d(pixel). Exact for a footprint
-        smaller than a square; larger ones are split into sub-pixels first, at most 16 by 16.
+        smaller than the pattern's finest; larger ones are split into sub-pixels first, at most 16 by 16.
         """
         extent = np.abs(jacobian).sum(axis=2).max(axis=1)
-        splits = np.clip(np.ceil(extent), 1, FINEST_SPLIT).astype(int)
+        splits = np.clip(np.ceil(extent / self.pattern.finest), 1, FINEST_SPLIT).astype(int)
         plate, dark = np.empty(len(uv)), np.empty(len(uv))
         for split in np.unique(splits):
             at = splits == split
             plate[at], dark[at] = self._split_shares(uv[at], jacobian[at], int(split))
         return plate, dark
+
+    def soft_shares(self, u: Levels, v: Levels) -> tuple[Levels, Levels]:
+        """Return the shares (h, w) of pixels that show the plate, and its print, softly."""
+        footprint = footprint_of(u), footprint_of(v)
+        plate = np.ones_like(u)
+        for x, width, steps in zip((u, v), footprint, self.outline, strict=True):
+            plate *= soft_window(x, width, *steps.edges)
+        return plate, self.pattern.soft_shares(u, v, footprint)
 
     def _split_shares(self, uv: Array, jacobian: Array, split: int) -> tuple[Array, Array]:
         ticks = (np.arange(split) + 0.5) / split - 0.5
@@ -60,24 +70,15 @@ class Plate:
         return plate, dark
 
     def _affine_shares(self, uv: Array, jacobian: Array) -> tuple[Array, Array]:
-        plate = integrate_product(*self.outline, uv, jacobian)
-        window = integrate_product(*self.window, uv, jacobian)
-        wave = integrate_product(*self.wave, uv, jacobian)
-        return plate, 0.5 * (window + wave)
+        return integrate_product(*self.outline, uv, jacobian), self.pattern.shares(uv, jacobian)
 
 
 def make_plate(target: Target, border_squares: float) -> Plate:
-    """Return the plate of a target with a white border of so many squares."""
-    sizes = (target.columns, target.rows)
-    outline, window, wave = (
-        (steps(sizes[0]), steps(sizes[1]))
-        for steps in (
-            lambda n: _box(-1.0 - border_squares, n + border_squares),
-            lambda n: _box(-1.0, n),
-            _wave,
-        )
-    )
-    return Plate(outline, window, wave)
+    """Return the plate of a target with a white border of so many squares around the print."""
+    low, high = (target.outline[corner, :2] / target.square_m for corner in (0, 2))
+    sides = (box_steps(low[axis] - border_squares, high[axis] + border_squares) for axis in range(2))
+    u, v = sides
+    return Plate((u, v), make_pattern(target))
 
 
 def _within(box: tuple[Steps, Steps], uv: Array) -> NDArray[np.bool_]:
@@ -85,13 +86,3 @@ def _within(box: tuple[Steps, Steps], uv: Array) -> NDArray[np.bool_]:
     u, v = uv[:, 0], uv[:, 1]
     within: NDArray[np.bool_] = (u > left) & (u < right) & (v > top) & (v < bottom)
     return within
-
-
-def _box(low: float, high: float) -> Steps:
-    return Steps(np.array([low, high]), np.array([0.0, 1.0, 0.0]))
-
-
-def _wave(corners: int) -> Steps:
-    """Return the wave: an edge at every corner and at both ends, the first square (from -1 to 0) positive."""
-    signs = np.where(np.arange(corners + 1) % 2 == 0, 1.0, -1.0)
-    return Steps(np.arange(-1.0, corners + 1.0), np.concatenate([[0.0], signs, [0.0]]))

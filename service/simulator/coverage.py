@@ -44,6 +44,24 @@ def integrate_product(f: Steps, g: Steps, uv: Array, jacobian: Array) -> Array:
     return mean
 
 
+def box_steps(low: float, high: float) -> Steps:
+    """Return the function that is 1 between two edges and 0 elsewhere."""
+    return Steps(np.array([low, high]), np.array([0.0, 1.0, 0.0]))
+
+
+def corner_share(beyond: Array, jacobian: Array) -> tuple[Array, Array, Array]:
+    """Return the shares (n,) of pixels beyond an edge of u, beyond one of v, and beyond both.
+
+    beyond: (n, 2) how far the pixel's centre is beyond each; jacobian: (n, 2, 2) d(u, v)/d(pixel).
+    """
+    share_u = half_plane_area(beyond[:, 0], jacobian[:, 0])
+    share_v = half_plane_area(beyond[:, 1], jacobian[:, 1])
+    both = share_u * share_v
+    crossed = _is_cut(share_u) & _is_cut(share_v)
+    both[crossed] = quarter_plane_area(beyond[crossed], jacobian[crossed])
+    return share_u, share_v, both
+
+
 def half_plane_area(offset: Array, gradient: Array) -> Array:
     """Return the area (n,) of the unit pixel where offset (n,) + gradient (n, 2) · x > 0.
 

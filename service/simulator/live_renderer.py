@@ -19,12 +19,10 @@ from service.simulator.meeting import board_bounds
 from service.simulator.ray_map import trace_rays
 from service.simulator.scene import Scene
 from service.simulator.sensor import expose
-
-Levels = NDArray[np.float32]
+from service.simulator.soft_edges import Levels
 
 SCALE = 2  # full-size pixels per pixel of a live frame
 FINEST_GAUSSIAN_PX = 0.7
-WIDEST_RAMP = 1.0  # of a square: wider, and its neighbours would be left out
 
 
 class LiveRenderer:
@@ -65,7 +63,7 @@ class LiveRenderer:
         ahead = (c > 1e-3) & self._reached[part]
         c = np.maximum(c, np.float32(1e-3))
         u, v = a / c, b / c
-        plate, dark = self._shares(u, v)
+        plate, dark = self._plate.soft_shares(u, v)
         plate *= ahead
         if R[:, 2] @ pose.tvec < 0:  # the back of the plate has no pattern
             dark[:] = 0.0
@@ -75,17 +73,6 @@ class LiveRenderer:
         grey *= self._lamp_gain(pose, u, v) * self._falloff[part]
         light[part] += grey - plate * light[part]
         return light
-
-    def _shares(self, u: Levels, v: Levels) -> tuple[Levels, Levels]:
-        """Return the shares (h, w) of pixels that show the plate, and its dark squares, softly."""
-        steps_u, steps_v = _footprint(u), _footprint(v)
-        columns, rows = self._scene.target.columns, self._scene.target.rows
-        border = 1.0 + self._scene.border_squares
-        plate = _window(u, steps_u, -border, columns - 1.0 + border)
-        plate *= _window(v, steps_v, -border, rows - 1.0 + border)
-        dark = 1.0 + _wave(u, steps_u, columns) * _wave(v, steps_v, rows)
-        dark *= 0.5 * _window(u, steps_u, -1.0, columns) * _window(v, steps_v, -1.0, rows)
-        return plate, dark
 
     def _lamp_gain(self, pose: Pose, u: Levels, v: Levels) -> Levels:
         """Return the lamp's light on the board (h, w), as `lighting.lamp_gain`, in single precision."""
@@ -129,28 +116,3 @@ def _half(picture: Array) -> Levels:
     height, width = (size // SCALE * SCALE for size in picture.shape)
     even = picture[:height, :width].astype(np.float32)
     return np.asarray(cv2.resize(even, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA), dtype=np.float32)
-
-
-def _footprint(u: Levels) -> Levels:
-    """Return how far (h, w) a coordinate changes over a pixel, at most a square."""
-    dx = cv2.Sobel(u, cv2.CV_32F, 1, 0, ksize=1, scale=0.5, borderType=cv2.BORDER_REPLICATE)
-    dy = cv2.Sobel(u, cv2.CV_32F, 0, 1, ksize=1, scale=0.5, borderType=cv2.BORDER_REPLICATE)
-    return np.clip(cv2.magnitude(dx, dy), np.float32(1e-6), np.float32(WIDEST_RAMP))
-
-
-def _window(u: Levels, footprint: Levels, low: float, high: float) -> Levels:
-    """Return the share (h, w) of each pixel between two edges."""
-    inner: Levels = np.minimum(u - np.float32(low), np.float32(high) - u) / footprint
-    inner += np.float32(0.5)
-    np.clip(inner, 0.0, 1.0, out=inner)
-    return inner
-
-
-def _wave(u: Levels, footprint: Levels, corners: int) -> Levels:
-    """Return the mean (h, w) over each pixel of the wave that is +1 from -1 to 0 and turns at each corner."""
-    phase = np.clip(u, np.float32(-0.5), np.float32(corners - 0.5))
-    phase += np.float32(0.5)
-    phase -= np.float32(2.0) * np.rint(np.float32(0.5) * phase)
-    wave: Levels = (np.float32(0.5) - np.abs(phase)) / (np.float32(0.5) * footprint)
-    np.clip(wave, -1.0, 1.0, out=wave)
-    return wave

@@ -68,14 +68,11 @@ def board_bounds(scene: Scene, plate: Plate, pose: Pose) -> tuple[int, int, int,
 def may_meet_edge(meeting: Meeting, plate: Plate, rays: RayMap) -> NDArray[np.bool_]:
     """Return which pixels (n,) an edge may cross, by a bound that needs no Jacobian per pixel."""
     spread = rays.spread[meeting.pixels] / meeting.inverse_depth
-    near = np.zeros(len(spread), dtype=bool)
+    half = np.empty_like(meeting.uv)
     for axis in range(2):
-        x, outline = meeting.uv[:, axis], plate.outline[axis].edges
-        row, last = meeting.inverse[axis], meeting.inverse[2]
-        half = np.sqrt(row @ row + x * (x * (last @ last) - 2.0 * (row @ last))) * spread
-        near |= np.abs(x - np.rint(x)) < half
-        near |= np.abs(np.abs(x - outline.mean()) - 0.5 * np.ptp(outline)) < half
-    return near
+        x, row, last = meeting.uv[:, axis], meeting.inverse[axis], meeting.inverse[2]
+        half[:, axis] = np.sqrt(row @ row + x * (x * (last @ last) - 2.0 * (row @ last))) * spread
+    return plate.near_edge(meeting.uv, half)
 
 
 def board_jacobian(meeting: Meeting, rays: RayMap, at: NDArray[np.intp]) -> Array:

@@ -8,6 +8,7 @@ import numpy as np
 from service.core.errors import ImageTooLarge, PoseUndetermined, WrongImageSize
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.detection import Detection, detect_target
+from service.core.vision.outer_features import outer_places
 from service.core.vision.pose import estimate_pose
 from service.core.vision.sharpness import Sharpness
 from service.core.vision.target import Target
@@ -82,11 +83,13 @@ def observe(picture: Picture, prescription: Prescription) -> Observation:
 
 
 def match_error(detection: Detection, prescription: Prescription, pose: Pose) -> float | None:
-    """Return the mean distance, px, of the four outer corners from where the prescribed pose puts them."""
+    """Return the mean distance, px, of the four outer corners from where the prescribed pose puts them.
+
+    Those that a part of a coded board lacks are where the pose of the rest puts them.
+    """
     target = prescription.target
     wanted = outer_corners(prescription.nominal, target, pose)
-    places = {int(corner): place for place, corner in enumerate(detection.corner_ids)}
-    seen = detection.image_points[[places[corner] for corner in target.outer_corners]]
+    seen = outer_places(detection.image_points, detection.corner_ids, target, prescription.nominal)
     error = float(np.mean(np.linalg.norm(seen - wanted, axis=1)))
     return error if np.isfinite(error) else None
 

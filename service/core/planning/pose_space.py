@@ -29,6 +29,7 @@ Indices = NDArray[np.int64]
 
 SMALLEST_SHARE: Final = 0.02
 SMALLEST_BATCH: Final = 512
+FINEST_PX: Final = 3.0  # of a marker's cell, for it to be read
 
 REMEDIES: Mapping[str, str] = {
     "image_margin_px": "boards do not fit into the image: allow a larger distance_m, less tilt, a smaller "
@@ -53,10 +54,11 @@ class PoseSpace:
     distance_m: of the target's centre from the camera. yaw_deg, pitch_deg, roll_deg: turn about the
     camera's y axis, then the board's x axis, then the board's normal; all zero is a board that faces along
     the optical axis. image_margin_px: least distance of every corner from the image border.
-    smallest_square_px: shortest side of a square in the image. largest_incidence_deg: between the board's
-    normal and the line of sight to any corner. separation_px: least mean corner distance between two poses
-    of a set. depth_of_field_m: nearest and farthest depth of any corner at which the picture is sharp; None:
-    everywhere. excluded_boxes: room that the fixture takes.
+    smallest_square_px: shortest side of a square in the image; of a coded board at least so long that a cell
+    of its markers has 3 px. largest_incidence_deg: between the board's normal and the line of sight to any
+    corner. separation_px: least mean corner distance between two poses of a set. depth_of_field_m: nearest
+    and farthest depth of any corner at which the picture is sharp; None: everywhere. excluded_boxes: room
+    that the fixture takes.
     """
 
     distance_m: tuple[float, float] = (0.25, 1.0)
@@ -148,12 +150,17 @@ def _failures(space: PoseSpace, target: Target, poses: Poses, seen: Visibility) 
     # Written as "not within", so that NaN (behind the camera, does not fit) breaks the bound.
     return {
         "image_margin_px": ~(seen.clearance_px >= space.image_margin_px),
-        "smallest_square_px": seen.smallest_square_px < space.smallest_square_px,
+        "smallest_square_px": seen.smallest_square_px < _least_square_px(space, target),
         "largest_incidence_deg": seen.incidence_rad > np.deg2rad(space.largest_incidence_deg),
         "depth_of_field_m": ~((seen.nearest_m >= near) & (seen.farthest_m <= far)),
         "excluded_boxes": touches_a_box(space.excluded_boxes, target, poses.rotations, poses.translations),
         "lens": (seen.lens_share > LENS_SHARE) | (seen.aside_rad > FARTHEST_ASIDE_RAD),
     }
+
+
+def _least_square_px(space: PoseSpace, target: Target) -> float:
+    """Return the shortest side of a square that is allowed: as the space says, and what a marker needs."""
+    return max(space.smallest_square_px, FINEST_PX * target.square_m / target.finest_m)
 
 
 def check_pose_space(space: PoseSpace) -> PoseSpace:

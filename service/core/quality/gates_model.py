@@ -86,7 +86,10 @@ def _monotone_ratio(evidence: Evidence) -> float:
     """
     intrinsics = evidence.result.intrinsics
     rotations, translations = stack_poses(evidence.result.poses)
-    points = np.swapaxes(rotations @ evidence.target.object_points.T, 1, 2) + translations[:, None]
+    boards = np.swapaxes(rotations @ evidence.target.object_points.T, 1, 2) + translations[:, None]
+    # What a view does not show of its board may be anywhere.
+    ids = [view.detection.corner_ids for view in evidence.views]
+    points = np.concatenate([board[seen] for board, seen in zip(boards, ids, strict=True)])
     valid = unproject(intrinsics, evidence.valid_grid)
     if not np.all(np.isfinite(valid)):
         return 0.0

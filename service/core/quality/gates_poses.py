@@ -14,6 +14,7 @@ from service.core.quality.evidence import Evidence, Expectation, NamedDetection
 from service.core.quality.gates import Measurement, check_limit, report_value
 from service.core.quality.gates_frame import NAMES_SHOWN, name_some, some_views
 from service.core.vision.camera import project
+from service.core.vision.outer_features import outer_places
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, stack_poses
 from service.core.vision.uncertainty import whole_image
@@ -31,12 +32,11 @@ def match_distances(
 ) -> Array:
     """Return the mean distance of the four outer corners, px (m,), of a view to each of m prescribed poses.
 
-    Only outer corners that the view holds count; NaN where it holds none. Expected corners are projected by
-    the nominal intrinsics, as they are on the operator's screen.
+    Outer corners that the view lacks are where the pose of its others puts them. Expected corners are
+    projected by the nominal intrinsics, as they are on the operator's screen.
     """
-    outer = np.array(target.outer_corners)
-    corners = dict(zip(view.detection.corner_ids.tolist(), view.detection.image_points, strict=True))
-    seen = np.array([corners.get(int(i), np.full(2, np.nan)) for i in outer])
+    outer, detection = list(target.outer_corners), view.detection
+    seen = outer_places(detection.image_points, detection.corner_ids, target, expectation.nominal)
     expected = project(expectation.nominal, *stack_poses(poses), target.object_points[outer])
     distances = np.linalg.norm(expected - seen, axis=-1)
     present = np.isfinite(seen[:, 0])

@@ -4,6 +4,7 @@ Not here: what a kind of target prints into them (`target_*.py`).
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.printed import Area, square_area
 from service.core.vision.transforms import Array
@@ -48,6 +49,14 @@ def dark_squares(columns: int, rows: int, square_m: float) -> tuple[Area, ...]:
         for column in range(-1, columns)
         if (row + column) % 2 == 0
     )
+
+
+def neighbours(columns: int, rows: int) -> NDArray[np.int64]:
+    """Return the pairs (k, 2) of features beside and below each other."""
+    number = np.arange(columns * rows).reshape(rows, columns)
+    beside = np.stack([number[:, :-1], number[:, 1:]], axis=-1)
+    below = np.stack([number[:-1], number[1:]], axis=-1)
+    return np.concatenate([beside.reshape(-1, 2), below.reshape(-1, 2)])
 
 
 def extent(object_points: Array) -> tuple[Array, Array]:

@@ -34,9 +34,19 @@ class Sharpness:
 
 def measure_sharpness(image: FloatImage, corners: Array) -> Sharpness:
     """Return the sharpness of an image (h, w) along the edges of a board's corners (rows, columns, 2) px."""
-    rows = _edge_widths(image, corners)
-    columns = _edge_widths(image, np.swapaxes(corners, 0, 1))
-    middle, width = (np.concatenate(parts) for parts in zip(rows, columns, strict=True))
+    rows = _inner_edges(corners)
+    columns = _inner_edges(np.swapaxes(corners, 0, 1))
+    spots, across = (np.concatenate(parts) for parts in zip(rows, columns, strict=True))
+    return measure_edges(image, spots, across)
+
+
+def measure_edges(image: FloatImage, spots: Array, across: Array) -> Sharpness:
+    """Return the sharpness of an image (h, w) at edges, each by the median over its spots.
+
+    spots: (k, s, 2) px on the edges; across: (k, 2) px from an edge to where its side is plain, at a right
+    angle to it.
+    """
+    middle, width = spots.mean(axis=1), _edge_widths(image, spots, across)
     size = np.array([image.shape[1], image.shape[0]])
     offset = (middle - 0.5 * (size - 1)) / size
     right, low = offset[:, 0] >= 0, offset[:, 1] >= 0
@@ -50,8 +60,8 @@ def _median(widths: Array) -> float:
     return float(np.median(known)) if known.size >= LEAST_EDGES else float("nan")
 
 
-def _edge_widths(image: FloatImage, corners: Array) -> tuple[Array, Array]:
-    """Return the middles (n, 2) px and 10–90 % widths (n,) px of the edges along the inner rows."""
+def _inner_edges(corners: Array) -> tuple[Array, Array]:
+    """Return the spots (n, s, 2) and reaches (n, 2), px, of the edges along the inner rows of corners."""
     start, end = corners[1:-1, :-1], corners[1:-1, 1:]
     along = end - start
     length = np.linalg.norm(along, axis=-1, keepdims=True)
@@ -61,14 +71,17 @@ def _edge_widths(image: FloatImage, corners: Array) -> tuple[Array, Array]:
     ]
     reach = np.minimum(REACH * np.minimum(*heights), LONGEST_REACH_PX)
     spots = start[..., None, :] + along[..., None, :] * PLACES[:, None]
-    across = normal[..., None, None, :] * (
-        np.linspace(-1, 1, SAMPLES)[:, None] * reach[..., None, None, None]
-    )
-    grid = spots[..., None, :] + across
+    return spots.reshape(-1, len(PLACES), 2), (normal * reach[..., None]).reshape(-1, 2)
+
+
+def _edge_widths(image: FloatImage, spots: Array, across: Array) -> Array:
+    """Return the 10–90 % widths (k,) px of edges, the median of those at their spots (k, s, 2)."""
+    grid = spots[..., None, :] + across[:, None, None, :] * np.linspace(-1, 1, SAMPLES)[:, None]
     profiles = sample_bilinear(image, grid[..., 0], grid[..., 1])
-    step = np.broadcast_to(2.0 * reach[..., None] / (SAMPLES - 1), profiles.shape[:-1])
+    reach = np.linalg.norm(across, axis=-1)
+    step = np.broadcast_to(2.0 * reach[:, None] / (SAMPLES - 1), profiles.shape[:-1])
     widths = _width_10_90(profiles.reshape(-1, SAMPLES), step.reshape(-1)).reshape(profiles.shape[:-1])
-    return (0.5 * (start + end)).reshape(-1, 2), np.median(widths, axis=-1).reshape(-1)
+    return np.asarray(np.median(widths, axis=-1))
 
 
 def _width_10_90(profiles: Array, step_px: Array) -> Array:

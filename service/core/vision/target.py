@@ -49,6 +49,11 @@ class Target(Protocol):
         ...
 
     @property
+    def finest_m(self) -> float:
+        """The side of the smallest thing that must be told apart in an image: a square, a cell, a dot."""
+        ...
+
+    @property
     def object_points(self) -> Array:
         """Features (rows * columns, 3), m: row by row, z = 0."""
         ...

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.errors import TargetSpecInvalid
 from service.core.vision.feature_grid import grid_outer, rectangle
@@ -22,6 +23,7 @@ from service.core.vision.transforms import Array
 KIND: Final = "aprilgrid"
 DICTIONARY: Final = "tag36h11"
 BORDER_CELLS: Final = 2
+CELLS: Final = 10  # of a tag, with its border
 PATTERN = re.compile(r"aprilgrid:(\d{1,2})x(\d{1,2}):(\d+(?:\.\d+)?)mm:(\d+(?:\.\d+)?)")
 SPACINGS: Final = (0.1, 1.0)
 
@@ -66,6 +68,11 @@ class AprilGrid:
         return self.spacing * self.tag_m
 
     @property
+    def finest_m(self) -> float:
+        """The side of a cell of a tag, m."""
+        return self.tag_m / CELLS
+
+    @property
     def object_points(self) -> Array:
         """Corners of the tags (rows * columns, 3), m: row by row from the top left, z = 0."""
         x, y = self._places(self.columns), self._places(self.rows)
@@ -98,9 +105,46 @@ class AprilGrid:
         return False
 
     @property
-    def tag_features(self) -> tuple[tuple[int, int, int, int], ...]:
+    def dictionary(self) -> str:
+        """The family of the tags."""
+        return DICTIONARY
+
+    @property
+    def marker_border(self) -> int:
+        """Dark cells around a tag's bits."""
+        return BORDER_CELLS
+
+    @property
+    def marker_features(self) -> tuple[tuple[int, int, int, int], ...]:
         """Indices of the features at each tag's corners, by id: top left, clockwise, on the upright board."""
         return tuple(self._corners_of(tag) for tag in range(self.tag_columns * self.tag_rows))
+
+    @property
+    def marker_corners(self) -> Array:
+        """Corners (tags, 4, 2), m, of the tags by id: clockwise from the top left of the dictionary's."""
+        # Kalibr prints tags the other way up than OpenCV's dictionary has them.
+        return np.roll(self.object_points[np.array(self.marker_features), :2], 2, axis=1)
+
+    @property
+    def plain_m(self) -> float:
+        """How far beside a tag's side nothing else is printed: to its bits, or across the gap."""
+        return min(BORDER_CELLS / CELLS * self.tag_m, self.square_m)
+
+    @property
+    def disc_m(self) -> float:
+        """Radius around a corner in which it is plain."""
+        return 0.7 * self.plain_m
+
+    @property
+    def edges(self) -> NDArray[np.int64]:
+        """Pairs (k, 2) of corners: the sides of tags."""
+        corners = np.array(self.marker_features)
+        return np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
+
+    @property
+    def probes(self) -> tuple[float, float]:
+        """How far from a tag's middle, to its four sides, it is dark, and bright, m."""
+        return (0.5 - 0.5 * BORDER_CELLS / CELLS) * self.tag_m, 0.5 * (self.tag_m + self.square_m)
 
     def shapes(self) -> tuple[Area, ...]:
         """Return the tags and the dark squares where gaps cross, around the outermost tags too."""
@@ -109,11 +153,10 @@ class AprilGrid:
         tops, lefts = np.r_[-gap, y[1::2]], np.r_[-gap, x[1::2]]
         squares = [square_area(float(left), float(top), gap) for top in tops for left in lefts]
         points = self.object_points
-        tags = [self._tag(tag, points[corners[0]]) for tag, corners in enumerate(self.tag_features)]
+        tags = [self._tag(tag, points[corners[0]]) for tag, corners in enumerate(self.marker_features)]
         return (*tags, *squares)
 
     def _tag(self, tag: int, place: Array) -> Area:
-        # Kalibr prints tags the other way up than OpenCV's dictionary has them.
         dark = np.rot90(dark_cells(DICTIONARY, tag, BORDER_CELLS), 2)
         return cells_area(dark, float(place[0]), float(place[1]), self.tag_m / len(dark))
 

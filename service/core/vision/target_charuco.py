@@ -10,9 +10,16 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.errors import TargetSpecInvalid
-from service.core.vision.feature_grid import dark_squares, grid_outer, grid_outline, grid_points
+from service.core.vision.feature_grid import (
+    dark_squares,
+    grid_outer,
+    grid_outline,
+    grid_points,
+    neighbours,
+)
 from service.core.vision.markers import DICTIONARIES, dark_cells, marker_dictionary
 from service.core.vision.printed import Area, cells_area
 from service.core.vision.transforms import Array
@@ -48,6 +55,11 @@ class Charuco:
     def name(self) -> str:
         """What messages call it."""
         return f"{self.columns}x{self.rows} ChArUco board"
+
+    @property
+    def finest_m(self) -> float:
+        """The side of a cell of a marker, m."""
+        return self.marker_m / (marker_dictionary(self.dictionary).markerSize + 2)
 
     @property
     def object_points(self) -> Array:
@@ -86,6 +98,44 @@ class Charuco:
         unit = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
         squares = np.array(_bright_squares(self.columns, self.rows), dtype=np.float64)
         return squares[:, None] * self.square_m + margin + self.marker_m * unit
+
+    @property
+    def marker_border(self) -> int:
+        """Dark cells around a marker's bits."""
+        return 1
+
+    @property
+    def marker_features(self) -> tuple[tuple[int, ...], ...]:
+        """Indices of the corners of each marker's square, by id; fewer at the border."""
+        return tuple(
+            tuple(
+                y * self.columns + x
+                for y in (row, row + 1)
+                for x in (column, column + 1)
+                if 0 <= x < self.columns and 0 <= y < self.rows
+            )
+            for column, row in _bright_squares(self.columns, self.rows)
+        )
+
+    @property
+    def plain_m(self) -> float:
+        """How far beside an edge of a square nothing else is printed: to the marker."""
+        return 0.5 * (self.square_m - self.marker_m)
+
+    @property
+    def disc_m(self) -> float:
+        """Radius around a corner in which it is plain: to the markers of the bright squares beside it."""
+        return min(0.4 * self.square_m, float(np.sqrt(2.0)) * self.plain_m)
+
+    @property
+    def edges(self) -> NDArray[np.int64]:
+        """Pairs (k, 2) of neighbouring corners: the sides of squares."""
+        return neighbours(self.columns, self.rows)
+
+    @property
+    def probes(self) -> tuple[float, float]:
+        """How far from a marker's middle, to its four sides, it is dark, and bright, m."""
+        return self.square_m, 0.5 * (self.marker_m + self.plain_m)
 
     def shapes(self) -> tuple[Area, ...]:
         """Return the dark squares and the markers in the bright ones."""

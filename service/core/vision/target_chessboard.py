@@ -43,6 +43,11 @@ class Chessboard:
         return f"{self.columns}x{self.rows} chessboard"
 
     @property
+    def finest_m(self) -> float:
+        """The side of a square, m."""
+        return self.square_m
+
+    @property
     def object_points(self) -> Array:
         """Corners (rows * columns, 3), m: row by row, z = 0."""
         return grid_points(self.columns, self.rows, self.square_m)

@@ -51,6 +51,11 @@ class Circles:
         return self.step_m
 
     @property
+    def finest_m(self) -> float:
+        """A dot's diameter, m."""
+        return self.diameter_m
+
+    @property
     def object_points(self) -> Array:
         """Centres of the dots (rows * columns, 3), m: row by row, z = 0."""
         row, column = np.divmod(np.arange(self.rows * self.columns), self.columns)
