@@ -52,6 +52,7 @@ from service.usecases.paging import PageRequest
 from service.usecases.plan_report import plan_text
 from service.usecases.planning import PlanRequest, plan_for, planned_document
 from service.usecases.pose_set_document import pose_set_document
+from service.usecases.sheets import SMALLEST_THAT_FITS, make_sheet
 from service.usecases.sku_file import read_sku_file
 from service.usecases.text import Label
 
@@ -93,6 +94,7 @@ def build_parser() -> argparse.ArgumentParser:
     verbs = parser.add_subparsers(required=True, metavar="COMMAND")
     _add_calibrate(verbs.add_parser("calibrate", help="calibrate from a folder of images, without a server"))
     _add_plan(verbs.add_parser("plan", help="plan the poses of a SKU, without a server"))
+    _add_sheet(verbs.add_parser("sheet", help="write a target's sheet to print"))
     _add_serve(verbs.add_parser("serve", help="start the service"))
     _add_migrate(verbs.add_parser("migrate", help="bring the database to the tables of this version"))
     _add_keys(verbs.add_parser("keys", help="add, list and revoke API keys"))
@@ -166,6 +168,31 @@ def _plan(arguments: argparse.Namespace) -> int:
         print_text(document)
     else:
         print_text(plan_text(revision.code, pose_set))
+    return DONE
+
+
+def _add_sheet(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("target", help="such as chessboard:9x6:25mm")
+    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="FILE.pdf or FILE.svg")
+    parser.add_argument(
+        "--paper",
+        default=SMALLEST_THAT_FITS,
+        help="A4 to A0 or a size such as 700x500mm; by default the smallest of A4 to A0 that fits",
+    )
+    parser.set_defaults(run=_sheet)
+
+
+def _sheet(arguments: argparse.Namespace) -> int:
+    suffix = arguments.out.suffix.lower()
+    if suffix not in {".pdf", ".svg"}:
+        raise BadRequest(f"'{arguments.out}' is neither .pdf nor .svg; say which one by the name of --out.")
+    sheet = make_sheet(arguments.target, "pdf" if suffix == ".pdf" else "svg", arguments.paper)
+    write_file(arguments.out, sheet.content)
+    paper = sheet.paper
+    print_text(
+        f"{arguments.out}: {paper.name}, {paper.width_mm:g} x {paper.height_mm:g} mm. "
+        "Print it at 100 %, not fitted to the page, and measure both rulers."
+    )
     return DONE
 
 

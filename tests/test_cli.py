@@ -216,6 +216,33 @@ def test_a_key_needs_a_name_that_can_be_shown(data_dir: str, capsys: Printed, na
     assert "name" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("name", "begins"), [("board.pdf", b"%PDF-"), ("board.SVG", b"<?xml")])
+def test_a_sheet_is_written_as_its_name_says(
+    tmp_path: Path, capsys: Printed, name: str, begins: bytes
+) -> None:
+    assert run("sheet", "chessboard:9x6:25mm", "--out", tmp_path / name) == 0
+    assert (tmp_path / name).read_bytes().startswith(begins)
+    assert "A4, 297 x 210 mm. Print it at 100 %" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("chessboard:9x6:25mm", "--out", "board.png"), "neither .pdf nor .svg"),
+        (("chessboard:9x6:25mm", "--out", "absent/board.pdf"), "Choose another --out"),
+        (("chessboard:9x6:300mm", "--out", "board.pdf"), "larger paper"),
+        (("paper", "--out", "board.pdf"), "is not a target"),
+    ],
+)
+def test_a_sheet_that_cannot_be_written_says_why(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Printed, arguments: tuple[str, ...], said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run("sheet", *arguments) == 2
+    assert said in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("key_id", ["nonsense", "00000000-0000-7000-8000-000000000000"])
 def test_an_unknown_key_cannot_be_revoked(data_dir: str, capsys: Printed, key_id: str) -> None:
     assert run("migrate", "--data-dir", data_dir) == 0
@@ -252,6 +279,7 @@ def test_every_verb_has_help_and_something_to_run(capsys: Printed) -> None:
     verbs = (
         "calibrate",
         "plan",
+        "sheet",
         "serve",
         "migrate",
         "keys",

@@ -15,10 +15,11 @@ from service.core.guidance.guided_target import check_guided
 from service.core.guidance.observation import Observation
 from service.core.guidance.problems import FrameMoved
 from service.core.guidance.session import GuidanceSettings
+from service.core.vision.camera import project
 from service.core.vision.live_corners import LiveWorkspace
 from service.core.vision.live_detection import LiveDetection, detect_live
 from service.core.vision.pose import estimate_pose
-from service.core.vision.transforms import Array
+from service.core.vision.transforms import Array, Pose
 from service.ports import LiveFrame
 
 Pixels = NDArray[np.uint8]
@@ -50,28 +51,46 @@ class Eye:
         settings = self._settings
         check_size(frame, settings.intrinsics.image_size)
         seen = self._detect(frame.image, frame.scale)
-        pose = None
-        if seen.image_points is not None:
-            self._judged[frame.sequence] = seen.image_points
+        pose, image_points = None, seen.image_points
+        if image_points is not None:
+            self._judged[frame.sequence] = image_points
             while len(self._judged) > FRAMES_KEPT:
                 self._judged.popitem(last=False)
-            try:
-                points = settings.target.object_points
-                pose = estimate_pose(settings.intrinsics, points, seen.image_points).pose
-            except PoseUndetermined:
-                # Corners that no pose explains are shown, and nothing is compared with them.
-                pose = None
+            pose = self._pose(image_points)
+            image_points = self._whole(image_points, pose)
+        # A part of a board that no pose explains says nothing of where the rest is.
+        is_board = seen.kind != "present" or image_points is not None
         return Observation(
             at_s=frame.at_s,
-            kind=seen.kind,
+            kind=seen.kind if is_board else "partial",
             corners_seen=seen.corners_seen,
             pose=pose,
-            image_points=seen.image_points,
+            image_points=image_points,
             edge_width_px=seen.edge_width_px,
             brightness=seen.brightness,
             sequence=frame.sequence,
             glare_share=seen.glare_share,
         )
+
+    def _pose(self, image_points: Array) -> Pose | None:
+        """Return the pose by the corners (n, 2) that are not NaN; None where none explains them."""
+        is_seen = ~np.isnan(image_points[:, 0])
+        points = self._settings.target.object_points[is_seen]
+        try:
+            return estimate_pose(self._settings.intrinsics, points, image_points[is_seen]).pose
+        except PoseUndetermined:
+            return None
+
+    def _whole(self, image_points: Array, pose: Pose | None) -> Array | None:
+        """Return corners (n, 2) with those that are NaN where the pose puts them; None if it does not."""
+        if not np.isnan(image_points).any():
+            return image_points
+        if pose is None:
+            return None
+        target = self._settings.target
+        told = project(self._settings.intrinsics, pose.rotation, pose.tvec, target.object_points)
+        whole = np.where(np.isnan(image_points), told, image_points)
+        return None if np.isnan(whole).any() else whole
 
     def check_same(self, sequence: int, full: Pixels) -> None:
         """Return if a full picture shows the board where the judged frame did.
@@ -83,8 +102,9 @@ class Eye:
         seen = self._detect(full, 1).image_points
         width = self._settings.intrinsics.image_size[0]
         if judged is not None and seen is not None:
-            moved_px = float(np.linalg.norm(seen - judged, axis=1).mean())
-            if moved_px <= MOVED_SHARE * width:
+            moved = np.linalg.norm(seen - judged, axis=1)
+            both = ~np.isnan(moved)
+            if both.any() and float(moved[both].mean()) <= MOVED_SHARE * width:
                 return
         raise FrameMoved(
             "The full picture does not show the board where the live picture did. Hold it still until the "

@@ -31,6 +31,7 @@ ELSEWHERE = {
     "limits-invalid",
     "media-type-unsupported",
     "method-not-allowed",
+    "paper-unusable",
     "pose-index-unknown",
     "pose-set-infeasible",
     "pose-set-invalid",

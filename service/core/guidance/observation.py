@@ -11,10 +11,11 @@ class Observation:
     """What a frame showed, and when.
 
     at_s: when the frame was taken, on a clock that only goes forward. kind: the whole declared board, a part
-    of it, none, or another one. pose: `T_cam_board`; image_points: (n, 2) full-size px in the target's order;
-    both None unless present. edge_width_px: 10–90 % width of its edges, full-size px; brightness: mean grey
-    level of its bright squares, 0…255, without a board of the frame; glare_share: saturated share of the
-    bright squares; None where not measured. sequence: the frame's number; a capture asks for it by that.
+    of it, none, or another one. pose: `T_cam_board`; image_points: (n, 2) full-size px in the target's order,
+    those of a coded board that are not seen where its pose puts them; both None unless present.
+    edge_width_px: 10–90 % width of its edges, full-size px; brightness: mean grey level of its bright
+    squares, 0…255, without a board of the frame; glare_share: saturated share of the bright squares; None
+    where not measured. sequence: the frame's number; a capture asks for it by that.
     """
 
     at_s: float

@@ -9,6 +9,7 @@ import numpy as np
 
 from service.core.planning.pose_space import Poses
 from service.core.vision.camera import Intrinsics, project, unproject
+from service.core.vision.feature_grid import extent
 from service.core.vision.image_grid import Counts, ImageGrid
 from service.core.vision.target import Target
 

@@ -16,6 +16,10 @@ from service.core.vision.transforms import Array
 class CodedTarget(Target, Protocol):
     """A target whose markers tell its features apart."""
 
+    def __hash__(self) -> int:
+        """Return the same for equal targets: what is worked out of one is kept by it."""
+        ...
+
     @property
     def dictionary(self) -> str:
         """The markers' dictionary, of `markers.DICTIONARIES`."""
@@ -44,6 +48,11 @@ class CodedTarget(Target, Protocol):
     @property
     def plain_m(self) -> float:
         """How far beside an edge nothing else is printed."""
+        ...
+
+    @property
+    def dark_m(self) -> float:
+        """How far beside an edge, on its dark side, nothing bright is printed."""
         ...
 
     @property

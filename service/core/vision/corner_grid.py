@@ -40,10 +40,11 @@ class CornerGrid:
         return ~np.isnan(self.points[..., 0])
 
 
-def link_corners(corners: Corners) -> NDArray[np.int64]:
+def link_corners(corners: Corners, evenness: float = 1.0) -> NDArray[np.int64]:
     """Return the neighbour (n, 4) of each corner in each slot's direction, -1 where there is none.
 
-    Links are mutual: link[q].index(p) exists whenever link[p] holds q.
+    Links are mutual: link[q].index(p) exists whenever link[p] holds q. evenness: the smallest step between
+    neighbouring corners of the board over the largest.
     """
     n = len(corners)
     if n < 2:
@@ -57,15 +58,17 @@ def link_corners(corners: Corners) -> NDArray[np.int64]:
     weak, strong = np.sort(corners.contrast[np.stack([rows, ends])], axis=0)
     good = (link[ends, back[rows, slots]] == rows) & (weak > LIKE_CONTRAST * strong)
     link[rows[~good], slots[~good]] = -1
-    return _without_bridges(_without_misfits(corners, link, back), back)
+    return _without_bridges(_without_misfits(corners, link, back, LIKE_LENGTH * evenness), back)
 
 
-def _without_misfits(corners: Corners, link: NDArray[np.int64], back: NDArray[np.int64]) -> NDArray[np.int64]:
+def _without_misfits(
+    corners: Corners, link: NDArray[np.int64], back: NDArray[np.int64], like_length: float
+) -> NDArray[np.int64]:
     """Cut the longer of two edges that meet head on when they are too unlike to be sides of squares."""
     vector = np.where(link[..., None] >= 0, corners.points[link] - corners.points[:, None], np.nan)
     length = np.linalg.norm(vector, axis=-1)
     opposite = np.roll(length, 2, axis=1)
-    rows, slots = np.nonzero(opposite < LIKE_LENGTH * length)
+    rows, slots = np.nonzero(opposite < like_length * length)
     pruned = link.copy()
     pruned[link[rows, slots], back[rows, slots]] = -1
     pruned[rows, slots] = -1

@@ -14,6 +14,7 @@ from service.core.vision.board import is_larger, nearest_whole, prominent_grids
 from service.core.vision.corner_grid import CornerGrid
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines
 from service.core.vision.sampling import sample_bilinear
+from service.core.vision.target import Target
 from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
 
@@ -34,9 +35,7 @@ def choose_grid(grids: list[CornerGrid], target: Chessboard) -> CornerGrid:
     return max(grids, key=lambda grid: int(grid.known.sum()), default=nothing)
 
 
-def may_be_a_board(
-    image: NDArray[np.uint8], grid: CornerGrid, corners_in_all: int, target: Chessboard
-) -> bool:
+def may_be_a_board(image: NDArray[np.uint8], grid: CornerGrid, corners_in_all: int, target: Target) -> bool:
     """Whether a grid that is not the whole target may be told as a part of a board or a larger one.
 
     image: (h, w) in which the grid was found; corners_in_all: of the frame, before they were linked.

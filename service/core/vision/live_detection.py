@@ -2,11 +2,9 @@
 
 At half size, from a bounded number of candidates, and refined only as far as guidance needs; what is captured
 is detected again, carefully (`detection`). A frame without a board costs no more than one with a board.
+Boards with markers go another way from the grids on (`live_coded`).
 Not here: poses, hints, and limits on sharpness or light.
 """
-
-from dataclasses import dataclass
-from typing import Literal
 
 import cv2
 import numpy as np
@@ -18,49 +16,29 @@ from service.core.vision.corner_grid import CornerGrid, keep_squares, link_corne
 from service.core.vision.detection import check_grey_image
 from service.core.vision.grid_growth import grow_grid
 from service.core.vision.live_choice import choose_grid, is_sure_and_larger, may_be_a_board
+from service.core.vision.live_coded import detect_live_coded
 from service.core.vision.live_corners import LiveWorkspace, find_live_corners, refine_on_pixels, smooth_frame
+from service.core.vision.live_detected import LIVE_SCALE, BoardKind, LiveDetection
 from service.core.vision.live_look import measure_look
 from service.core.vision.outer_lines import whole_lines, without_rims
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage
+from service.core.vision.target_aprilgrid import AprilGrid
+from service.core.vision.target_charuco import Charuco
 from service.core.vision.target_chessboard import Chessboard
-from service.core.vision.transforms import Array
 
-__all__ = ["BoardKind", "LiveDetection", "LiveWorkspace", "detect_live"]
+__all__ = ["BoardKind", "LiveDetection", "LiveTarget", "LiveWorkspace", "detect_live"]
 
-LIVE_SCALE = 2  # full-size pixels per pixel in which a live frame is looked at
 GRIDS = 3  # linked grids that are looked into, the one with most contrast first
 SHARE_OF_A_RIVAL = 0.6  # of the target's corners that a second board must show before it is grown
 ROUNDS = 1  # of growth, by a line on each side
 DISC_PX = 2  # of the last saddle fit
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
-
-BoardKind = Literal["present", "partial", "absent", "wrong"]
-
-
-@dataclass(frozen=True)
-class LiveDetection:
-    """What a live frame shows.
-
-    kind: "present" (the whole target), "partial" (a part of a board, or one that is covered), "wrong" (a
-    larger board) or "absent".
-    image_points: (n, 2) in full-size px and the target's order; None unless present.
-    corners_seen: on the board or on the part of it.
-    edge_width_px: 10–90 %, full-size px, a cheap estimate; None unless present.
-    brightness: grey level of the bright squares of the board; without one, mean of the frame.
-    glare_share: saturated share of the bright squares; None unless present.
-    """
-
-    kind: BoardKind
-    image_points: Array | None
-    corners_seen: int
-    edge_width_px: float | None
-    brightness: float
-    glare_share: float | None = None
+LiveTarget = Chessboard | Charuco | AprilGrid
 
 
 def detect_live(
-    image: NDArray[np.uint8], target: Chessboard, workspace: LiveWorkspace | None = None, *, scale: int = 1
+    image: NDArray[np.uint8], target: LiveTarget, workspace: LiveWorkspace | None = None, *, scale: int = 1
 ) -> LiveDetection:
     """Return what a grey frame (h, w) shows of a target.
 
@@ -71,6 +49,14 @@ def detect_live(
     image = check_grey_image(image)
     workspace = LiveWorkspace() if workspace is None else workspace
     half = image if scale == LIVE_SCALE else halve(image)
+    if isinstance(target, Chessboard):
+        return _detect_chessboard(half, target, workspace)
+    return detect_live_coded(half, target, workspace)
+
+
+def _detect_chessboard(
+    half: NDArray[np.uint8], target: Chessboard, workspace: LiveWorkspace
+) -> LiveDetection:
     blurred = smooth_frame(half, workspace)
     found = find_live_corners(blurred, workspace)
     grid = choose_grid(_grow_grids(blurred, found, target), target)

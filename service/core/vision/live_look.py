@@ -47,6 +47,34 @@ def measure_look(image: NDArray[np.uint8], corners: Array, dark_first: bool) -> 
     )
 
 
+def look_along_edges(
+    image: NDArray[np.uint8], middles: Array, across: Array, dark_px: Array, bright_px: Array
+) -> Look:
+    """Return how a board with edges at (k, 2) px looks in an image (h, w), where markers leave little room.
+
+    across: (k, 2), of length one, at a right angle to the edges; dark_px, bright_px: (k,) how far an edge's
+    dark and bright side are plain. Only the dark side need be wide enough for a level: an edge is even.
+    """
+    two = sample_bilinear(image, *_beside(middles, across, np.array([-0.5, 0.5])))
+    slope, middle = two[:, 1] - two[:, 0], two.mean(axis=1)
+    brighter = np.where(slope > 0, 1.0, -1.0)[:, None] * across
+    far = np.stack([-REACH * dark_px, 0.5 * bright_px], axis=-1)
+    dark, bright = sample_bilinear(image, *_beside(middles, brighter, far)).T
+    height = np.maximum(2.0 * (middle - dark), 0.0)
+    width_sq = float(np.median(SLOPE_TO_WIDTH * height / np.maximum(np.abs(slope), 1e-3))) ** 2
+    return Look(
+        edge_width_px=float(np.sqrt(max(width_sq - OWN_WIDTH_PX**2, 0.0))),
+        brightness=float(np.mean(dark + height)),
+        glare_share=float(np.mean(bright >= SATURATED)),
+    )
+
+
+def _beside(middles: Array, across: Array, steps: Array) -> tuple[Array, Array]:
+    """Return x and y (k, s) of places at steps (s,) or (k, s), px, from the edges."""
+    spots = middles[:, None] + np.broadcast_to(steps, (len(middles), 2))[..., None] * across[:, None]
+    return spots[..., 0], spots[..., 1]
+
+
 def _edge_widths(image: NDArray[np.uint8], corners: Array) -> Array:
     """Return the 10–90 % widths (n,) px of the edges along the inner rows, by their slope in the middle."""
     start, end = corners[1:-1, :-1], corners[1:-1, 1:]

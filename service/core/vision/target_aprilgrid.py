@@ -131,6 +131,11 @@ class AprilGrid:
         return min(BORDER_CELLS / CELLS * self.tag_m, self.square_m)
 
     @property
+    def dark_m(self) -> float:
+        """How far beside a tag's side, on its dark side, nothing bright is printed: its border."""
+        return BORDER_CELLS / CELLS * self.tag_m
+
+    @property
     def disc_m(self) -> float:
         """Radius around a corner in which it is plain."""
         return 0.7 * self.plain_m

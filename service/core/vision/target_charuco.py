@@ -123,6 +123,11 @@ class Charuco:
         return 0.5 * (self.square_m - self.marker_m)
 
     @property
+    def dark_m(self) -> float:
+        """How far beside an edge, on its dark side, nothing bright is printed: the square."""
+        return self.square_m
+
+    @property
     def disc_m(self) -> float:
         """Radius around a corner in which it is plain: to the markers of the bright squares beside it."""
         return min(0.4 * self.square_m, float(np.sqrt(2.0)) * self.plain_m)

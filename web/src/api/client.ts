@@ -12,6 +12,7 @@ import type {
   PageRunSummary,
   PageSku,
   PageStationStanding,
+  PageTarget,
   Population,
   PoseSet,
   PoseSetRequested,
@@ -23,6 +24,7 @@ import type {
   SharedPicture,
   SkuDetail,
   Station,
+  TargetPattern,
   Vehicle,
   VehicleHistory,
   Yield,
@@ -202,6 +204,20 @@ export function getExportedResult(runId: string, format: string, allowFailed: bo
 
 export function importPoseSet(code: string, revision: number, document: unknown): Promise<PoseSetRequested> {
   return postJson(`${ROOT}/skus/${encodeURIComponent(code)}/revisions/${revision}/pose-sets`, document);
+}
+
+export function getTargets(cursor: string | null, signal?: AbortSignal): Promise<PageTarget> {
+  return getJson(partPath("/targets", cursor), signal);
+}
+
+export function getPattern(spec: string, signal?: AbortSignal): Promise<TargetPattern> {
+  return getJson(`${ROOT}/targets/pattern?${new URLSearchParams({ spec }).toString()}`, signal);
+}
+
+/** A target's sheet to print; `paper` as the service names it, or auto. */
+export function getSheet(spec: string, format: "pdf" | "svg", paper: string): Promise<NamedFile> {
+  const query = new URLSearchParams({ spec, format, paper });
+  return getFile(`${ROOT}/targets/sheet?${query.toString()}`);
 }
 
 export function getYield(sku: string, station: string, signal?: AbortSignal): Promise<Yield> {

@@ -12,6 +12,8 @@ import { RunsPage } from "./runs_page";
 import { SkuPage } from "./sku_page";
 import { SkusPage } from "./skus_page";
 import { StationsPage } from "./stations_page";
+import { TargetPage } from "./target_page";
+import { TargetsPage } from "./targets_page";
 import { VehiclePage } from "./vehicle_page";
 import { YieldPage } from "./yield_page";
 
@@ -45,6 +47,10 @@ function Page({ route: to }: { route: Route }): JSX.Element {
       return <ReviewPage id={to.id} other={to.with} />;
     case "sku":
       return <SkuPage key={to.code} code={to.code} poseSet={to.poseSet} />;
+    case "targets":
+      return <TargetsPage />;
+    case "target":
+      return <TargetPage key={to.spec} spec={to.spec} />;
     case "yield":
       return <YieldPage sku={to.sku} station={to.station} />;
   }

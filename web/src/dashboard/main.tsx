@@ -9,6 +9,7 @@ import "../look/files.css";
 import "../look/plant.css";
 import "../look/review.css";
 import "../look/results.css";
+import "../look/targets.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
 import { showFirstTheme } from "../look/theme";

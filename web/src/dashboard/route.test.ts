@@ -14,6 +14,8 @@ const ROUTES: Route[] = [
   { page: "skus" },
   { page: "sku", code: "lens1", poseSet: "" },
   { page: "sku", code: "lens1", poseSet: "0198-7" },
+  { page: "targets" },
+  { page: "target", spec: "chessboard:9x6:25mm" },
   { page: "poseSet", id: "0198-7", with: "" },
   { page: "poseSet", id: "0198-7", with: "0198-8" },
   { page: "yield", sku: "", station: "" },

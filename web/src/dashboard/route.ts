@@ -11,6 +11,8 @@ export type Route =
   | { page: "skus" }
   | { page: "poseSet"; id: string; with: string }
   | { page: "sku"; code: string; poseSet: string }
+  | { page: "targets" }
+  | { page: "target"; spec: string }
   | { page: "yield"; sku: string; station: string };
 
 export function parseRoute(hash: string): Route {
@@ -26,7 +28,7 @@ function runsRoute(query: URLSearchParams): Route {
 }
 
 function listRoute(page: string, query: URLSearchParams): Route | null {
-  if (page === "skus" || page === "stations") return { page };
+  if (page === "skus" || page === "stations" || page === "targets") return { page };
   if (page === "compare") return { page, a: query.get("a") ?? "", b: query.get("b") ?? "" };
   if (page !== "yield") return null;
   return { page, sku: query.get("sku") ?? "", station: query.get("station") ?? "" };
@@ -34,6 +36,7 @@ function listRoute(page: string, query: URLSearchParams): Route | null {
 
 function oneRoute(page: string, name: string, query: URLSearchParams): Route | null {
   if (page === "runs") return { page: "run", id: name, capture: query.get("capture") ?? "" };
+  if (page === "targets") return { page: "target", spec: name };
   if (page === "vehicles") return { page: "vehicle", serial: name };
   if (page === "pose-sets") return { page: "poseSet", id: name, with: query.get("with") ?? "" };
   if (page === "skus") return { page: "sku", code: name, poseSet: query.get("pose_set") ?? "" };
@@ -48,6 +51,8 @@ export function addressOf(route: Route): string {
       return withQuery("#/compare", { a: route.a, b: route.b });
     case "vehicle":
       return `#/vehicles/${encodeURIComponent(route.serial)}`;
+    case "target":
+      return `#/targets/${encodeURIComponent(route.spec)}`;
     case "poseSet":
       return withQuery(`#/pose-sets/${encodeURIComponent(route.id)}`, { with: route.with });
     case "sku":
@@ -60,6 +65,7 @@ export function addressOf(route: Route): string {
     }
     case "skus":
     case "stations":
+    case "targets":
       return `#/${route.page}`;
   }
 }

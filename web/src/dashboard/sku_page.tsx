@@ -56,6 +56,11 @@ function Sku({ loaded: { sku, poseSets }, poseSet }: { loaded: Loaded; poseSet: 
         )}
         <nav class="page-links" aria-label={sku.code}>
           <a href={addressOf({ page: "runs", filter: { sku: sku.code } })}>{say.sku_runs}</a>
+          {revision !== undefined && (
+            <a href={addressOf({ page: "target", spec: revision.document.target })}>
+              {say.target_print_or_show}
+            </a>
+          )}
           <a href={addressOf({ page: "yield", sku: sku.code, station: "" })}>{say.nav_yield}</a>
         </nav>
       </div>

@@ -1062,6 +1062,27 @@ export interface Target {
   created_at: string;
 }
 
+/** What is dark of a target, m: x along the rows of features from the first one, y from row to row. */
+export interface TargetPattern {
+  spec: string;
+  /** What messages call it. */
+  name: string;
+  /** The side of a square; of circles the grid's step. */
+  square_m: number;
+  /** Features lie at whole multiples of it; null where there is no such step. */
+  step_m: number | null;
+  /** Top left of the rectangle around all that is dark. */
+  corner_m: [number, number];
+  /** Width and height of that rectangle. */
+  size_m: [number, number];
+  /** What must stay white around the rectangle. */
+  quiet_m: number;
+  /** Borders of the dark areas, by the even-odd rule. */
+  loops: [number, number][][];
+  /** Dark discs: centre and radius. */
+  discs: [number, number, number][];
+}
+
 /** How far cameras differ from the nominal: half widths. What is not given takes the service's default. */
 export interface ToleranceDocument {
   focal_share?: number | null;

@@ -5,6 +5,7 @@ import { deHelp } from "./de_help";
 import { dePractice } from "./de_practice";
 import { deResults } from "./de_results";
 import { deReview } from "./de_review";
+import { deTargets } from "./de_targets";
 import type { Words } from "./en";
 
 export const de: Words = {
@@ -14,6 +15,7 @@ export const de: Words = {
   ...dePractice,
   ...deResults,
   ...deReview,
+  ...deTargets,
 
   language: "Deutsch",
   product: "dmscal",

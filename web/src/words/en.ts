@@ -5,6 +5,7 @@ import { enHelp } from "./en_help";
 import { enPractice } from "./en_practice";
 import { enResults } from "./en_results";
 import { enReview } from "./en_review";
+import { enTargets } from "./en_targets";
 
 export const en = {
   ...enKiosk,
@@ -13,6 +14,7 @@ export const en = {
   ...enPractice,
   ...enResults,
   ...enReview,
+  ...enTargets,
 
   language: "English",
   product: "dmscal",

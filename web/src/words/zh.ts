@@ -6,6 +6,7 @@ import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
 import { zhResults } from "./zh_results";
 import { zhReview } from "./zh_review";
+import { zhTargets } from "./zh_targets";
 
 export const zh: Words = {
   ...zhFiles,
@@ -14,6 +15,7 @@ export const zh: Words = {
   ...zhPractice,
   ...zhResults,
   ...zhReview,
+  ...zhTargets,
 
   language: "中文",
   product: "dmscal",
