@@ -59,15 +59,17 @@ export function addressOf(route: Route): string {
       return withQuery(`#/skus/${encodeURIComponent(route.code)}`, { pose_set: route.poseSet });
     case "yield":
       return withQuery("#/yield", { sku: route.sku, station: route.station });
-    case "runs": {
-      const query = queryOf(route.filter);
-      return query === "" ? "#/runs" : `#/runs?${query}`;
-    }
+    case "runs":
+      return runsAddress(queryOf(route.filter));
     case "skus":
     case "stations":
     case "targets":
       return `#/${route.page}`;
   }
+}
+
+function runsAddress(query: string): string {
+  return query === "" ? "#/runs" : `#/runs?${query}`;
 }
 
 function withQuery(path: string, values: Record<string, string>): string {
