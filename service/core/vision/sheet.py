@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from service.core.errors import PaperUnusable
 from service.core.vision.pattern import Pattern, pattern_of
+from service.core.vision.problems import PaperUnusable
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
