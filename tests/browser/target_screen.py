@@ -23,8 +23,8 @@ def go(page: Page, plant: Serving, where: str) -> None:
 
 
 def grey(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """A screenshot as a camera without noise sees it: a little blurred."""
-    one = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY)
+    """A screenshot as a camera without noise sees it: a little blurred, and not overexposed."""
+    one = 0.9 * cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY)
     return np.asarray(cv2.GaussianBlur(one, (0, 0), 0.8), dtype=np.uint8)
 
 

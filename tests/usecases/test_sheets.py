@@ -29,11 +29,12 @@ POINTS_PER_MM = 72 / 25.4
 PX_PER_MM = 5
 NUMBER = r"-?\d*\.?\d+"
 Image = NDArray[np.uint8]
+WHITE = 230  # a camera that shows paper as 255 is overexposed
 
 
 def draw(loops: list[NDArray[np.float64]], width_mm: float, height_mm: float) -> Image:
     """Fill loops (k, 2), mm, by the even-odd rule, as a picture whose pixel edges lie at whole steps."""
-    page = np.full((round(height_mm * PX_PER_MM), round(width_mm * PX_PER_MM)), 255, dtype=np.uint8)
+    page = np.full((round(height_mm * PX_PER_MM), round(width_mm * PX_PER_MM)), WHITE, dtype=np.uint8)
     fine = [np.round((loop * PX_PER_MM - 0.5) * 256).astype(np.int32) for loop in loops]
     cv2.fillPoly(page, fine, 0, lineType=cv2.LINE_AA, shift=8)
     return np.asarray(cv2.GaussianBlur(page, (0, 0), 0.7), dtype=np.uint8)
