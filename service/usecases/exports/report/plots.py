@@ -111,7 +111,10 @@ def draw_views(paper: Paper, run: FinishedRun, x: float, y: float, width: float,
 
 
 def expected_errors(run: FinishedRun, columns: int, rows: int) -> Array:
-    """Return the expected mapping error (rows, columns) px, as the gates measure it; NaN beyond the lens."""
+    """Return the expected mapping error (rows, columns) px; NaN beyond the lens.
+
+    The rotation that fits the working zone best is taken out.
+    """
     width, height = run.facts.intrinsics.image_size
     u, v = width / columns, height / rows
     centres = Region(u / 2 - 0.5, v / 2 - 0.5, width - 0.5 - u / 2, height - 0.5 - v / 2).grid(columns, rows)
