@@ -34,7 +34,8 @@ def load_signing_keys(directory: Path) -> tuple[Ed25519PrivateKey, list[Ed25519P
     Raises Unavailable naming the file or directory that cannot be used.
     """
     if not _key_files(directory):
-        add_signing_key(directory)
+        # By its number: of several that start at once, the others then find this one in their way.
+        _add(directory, 1)
     signer, *older = [_read(path) for path in reversed(_key_files(directory))]
     if not isinstance(signer, Ed25519PrivateKey):
         raise Unavailable(
@@ -52,8 +53,12 @@ def load_public_keys(directory: Path) -> list[Ed25519PublicKey]:
 def add_signing_key(directory: Path) -> None:
     """Make a key that signs from the next start on; of two who do so at once, one has an effect."""
     numbers = [int(path.stem[4:]) for path in _key_files(directory)]
+    _add(directory, max(numbers, default=0) + 1)
+
+
+def _add(directory: Path, number: int) -> None:
     content = Ed25519PrivateKey.generate().private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
-    _write_once(directory / f"key-{max(numbers, default=0) + 1:04d}.pem", content)
+    _write_once(directory / f"key-{number:04d}.pem", content)
 
 
 def _key_files(directory: Path) -> list[Path]:
