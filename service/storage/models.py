@@ -11,6 +11,7 @@ from uuid import UUID
 from sqlalchemy import CheckConstraint, Double, ForeignKey, Index, MetaData, String, UniqueConstraint, Uuid
 from sqlalchemy.orm import DeclarativeBase, Mapped, MappedAsDataclass, mapped_column
 
+from service.core.guidance.actions import AddedFor
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.storage.columns import Json, UtcDateTime, new_id, word
@@ -176,6 +177,21 @@ class RunRow(Row):
     created_by: Mapped[str]
     created_at: Mapped[datetime]
     finished_at: Mapped[datetime | None] = mapped_column(default=None)
+
+
+class RunPoseRow(Row):
+    """A pose that a run asks for beyond its pose set; its index follows those of the set."""
+
+    __tablename__ = "run_pose"
+    __table_args__ = (UniqueConstraint("run_id", "pose_index"),)
+
+    id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
+    run_id: Mapped[UUID] = mapped_column(_refers_to("run.id"))
+    pose_index: Mapped[int]
+    pose: Mapped[JsonObject]
+    reason: Mapped[AddedFor] = mapped_column(word(AddedFor, "reason"))
+    replaces: Mapped[int | None] = mapped_column(default=None)
+    created_at: Mapped[datetime]
 
 
 class CaptureRow(Row):

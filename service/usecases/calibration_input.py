@@ -10,14 +10,15 @@ import numpy as np
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from service.core.quality.evidence import Expectation, NamedDetection
+from service.core.quality.evidence import AddedPose, Expectation, NamedDetection
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.run import Purpose
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
-from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow, SkuRow
+from service.storage.models import CaptureRow, RunRow, SkuRevisionRow, SkuRow
 from service.storage.words import Publication
-from service.usecases.observation import pose_from_json, sharpness_from_json
+from service.usecases.observation import sharpness_from_json
+from service.usecases.run_poses import read_added, read_prescribed, view_added
 from service.usecases.sku_document import Revision, SkuDocument
 
 
@@ -38,16 +39,20 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
     revision = SkuDocument.model_validate(document).to_revision()
     query = select(CaptureRow).where(CaptureRow.run_id == run.id).order_by(CaptureRow.number)
     captures = list(session.scalars(query))
-    pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
+    prescribed = read_prescribed(session, run)
     expectation = Expectation(
         nominal=revision.intrinsics,
         limits=revision.limits,
         working_zone=revision.working_zone,
         valid_region=revision.valid_region,
-        poses=None if pose_set is None else tuple(pose_from_json(pose) for pose in pose_set.poses),
-        pose_of_view=None if pose_set is None else tuple(capture.pose_index for capture in captures),
+        poses=prescribed,
+        pose_of_view=None if prescribed is None else tuple(capture.pose_index for capture in captures),
         other_skus=_other_skus(session, run),
         used_for=_used_for(session, run, [capture.sha256 for capture in captures]),
+        added=tuple(
+            AddedPose(one.pose, one.replaces) for one in map(view_added, read_added(session, run.id))
+        ),
+        early_finish=revision.early_finish,
     )
     ids = tuple(capture.id for capture in captures)
     return CalibrationInput(run.id, ids, tuple(map(_detection, captures)), revision, expectation)

@@ -18,7 +18,7 @@ from service.core.errors import DuplicateImage, Fact, NotFound, PoseIndexUnknown
 from service.core.run import check_open
 from service.ports import BlobStore
 from service.storage.database import Database
-from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.storage.models import CaptureRow, RunRow, SkuRevisionRow
 from service.usecases.audit import record
 from service.usecases.capture_views import CaptureDetailView, view_capture_detail
 from service.usecases.images import image_sha256
@@ -27,10 +27,10 @@ from service.usecases.observation import (
     Picture,
     Prescription,
     observe,
-    pose_from_json,
     pose_to_json,
     sharpness_to_json,
 )
+from service.usecases.run_poses import read_added, read_prescribed, view_added
 from service.usecases.runs import get_run
 from service.usecases.sku_document import SkuDocument
 
@@ -142,15 +142,15 @@ def _prescription(session: Session, run_id: UUID, pose_index: int | None) -> Pre
     check_open(run.state, str(run_id))
     document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
     revision = SkuDocument.model_validate(document).to_revision()
-    pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
-    poses = pose_set.poses if pose_set is not None else []
+    prescribed, added = read_prescribed(session, run) or (), read_added(session, run_id)
+    poses = (*prescribed, *(view_added(row).pose for row in added))
     if pose_index is not None and pose_index >= len(poses):
         raise PoseIndexUnknown(
-            f"The run's pose set has {len(poses)} poses, numbered from 0; there is no pose {pose_index}.",
+            f"The run has {len(poses)} poses, numbered from 0; there is no pose {pose_index}.",
             poses=len(poses),
             pose_index=pose_index,
         )
-    pose = None if pose_index is None else pose_from_json(poses[pose_index])
+    pose = None if pose_index is None else poses[pose_index]
     return Prescription(revision.intrinsics, revision.target, pose)
 
 

@@ -43,10 +43,10 @@ def finish_run(database: Database, run_id: UUID, who: str, now: datetime) -> Res
     with database.write() as session:
         run = lock_open_run(session, run_id)
         _check_unchanged(session, source)
-        _store(session, run, source, judged, now)
-        record(
-            session, now, who, "run.finish", f"run:{run_id}", serial=run.serial, verdict=judged.verdict.value
-        )
+        row = _store(session, run, source, judged, now)
+        early = row.document["early_finish"]
+        facts = {"serial": run.serial, "verdict": judged.verdict.value}
+        record(session, now, who, "run.finish", f"run:{run_id}", **facts, **(early or {}))
         return read_result(session, run_id)
 
 
@@ -65,7 +65,10 @@ def _check_unchanged(session: Session, source: CalibrationInput) -> None:
         )
 
 
-def _store(session: Session, run: RunRow, source: CalibrationInput, judged: Judged, now: datetime) -> None:
+def _store(
+    session: Session, run: RunRow, source: CalibrationInput, judged: Judged, now: datetime
+) -> CalibrationRow:
+    """Store the result, and write down that it is to be announced."""
     result = judged.result
     row = CalibrationRow(
         run_id=run.id,
@@ -89,6 +92,7 @@ def _store(session: Session, run: RunRow, source: CalibrationInput, judged: Judg
     )
     session.flush()
     outbox.append(session, "run.finished", f"vehicle:{run.serial}", _announcement(session, run, row), now)
+    return row
 
 
 def _document(source: CalibrationInput, judged: Judged) -> JsonObject:

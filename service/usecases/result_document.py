@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 import service
+from service.core.quality.reasons import Reason
 from service.core.quality.verdict import Judged
 from service.core.vision.calibration import StartReport
 from service.core.vision.transforms import Array
@@ -47,6 +48,7 @@ def result_document(judged: Judged, capture_ids: Mapping[str, UUID]) -> JsonObje
         "starts": [_start(start) for start in result.starts],
         "agreement_px": number_or_null(result.agreement_px),
         "converged": result.converged,
+        "early_finish": _early_finish(judged),
         "verdict": judged.verdict.value,
     }
 
@@ -60,6 +62,12 @@ def versions() -> dict[str, str]:
         "opencv": cv2.__version__,
         "scipy": scipy.__version__,
     }
+
+
+def _early_finish(judged: Judged) -> JsonObject | None:
+    """Return how many poses proved the required accuracy; None for a run with all its poses."""
+    early = (one for one in judged.measurements if one.reason is Reason.EARLY_FINISH)
+    return next((dict(one.facts) for one in early), None)
 
 
 def _view(name: str, capture_id: str, residuals: Array, pose: JsonObject) -> JsonObject:

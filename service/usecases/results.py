@@ -32,6 +32,7 @@ class ResultView:
     views: list[dict[str, Any]]
     starts: list[dict[str, Any]]
     agreement_px: float | None
+    early_finish: dict[str, Any] | None
     versions: dict[str, str]
     created_at: datetime
 
@@ -80,6 +81,7 @@ def _view(session: Session, row: CalibrationRow) -> ResultView:
         views=document["views"],
         starts=document["starts"],
         agreement_px=document["agreement_px"],
+        early_finish=document.get("early_finish"),
         versions=row.versions,
         created_at=row.created_at,
     )

@@ -21,6 +21,8 @@ from service.core.errors import ServiceError
 from service.core.planning.bootstrap import nominal_of_data_sheet
 from service.core.planning.fixture import Box
 from service.core.planning.pose_space import PoseSpace
+from service.core.quality.early_finish import EarlyFinish
+from service.core.quality.gates_cross_check import FEWEST_VIEWS
 from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
 from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.target import Chessboard, parse_target
@@ -147,7 +149,10 @@ class RegionDocument(Document):
 
 @dataclass(frozen=True)
 class Revision:
-    """One revision of a SKU as the core's values; zones are None where the default by image size holds."""
+    """One revision of a SKU as the core's values; zones are None where the default by image size holds.
+
+    early_finish: None where a run must take all its poses. extra_poses: as in the document.
+    """
 
     code: str
     name: str
@@ -162,6 +167,8 @@ class Revision:
     working_zone: Region | None
     valid_region: Region | None
     limits: Limits
+    early_finish: EarlyFinish | None
+    extra_poses: int
 
 
 EXAMPLE: JsonValue = {
@@ -206,6 +213,16 @@ class SkuDocument(Document):
     required_mapping_px: Annotated[float, Field(gt=0, le=100)] | None = Field(
         default=None,
         description="Mean mapping error that a set must promise; null: where the gate still gives PASS.",
+    )
+    early_finish_poses: Annotated[int, Field(ge=FEWEST_VIEWS, le=100)] | None = Field(
+        default=None,
+        description="From so many poses on a run may end before the set is complete, once the required "
+        "mapping error is proven and every gate passes; null: never. With fewer there is no cross-check.",
+    )
+    extra_poses: Annotated[int, Field(ge=0, le=10)] = Field(
+        default=2,
+        description="So many poses beyond the set a guided run may ask for where its captures lack accuracy "
+        "or one of them is weak, and so many in place of poses that are out of reach.",
     )
     fixed: tuple[str, ...] = Field(
         default=(), strict=False, description="Parameters that stay at their nominal value."
@@ -261,7 +278,8 @@ class SkuDocument(Document):
     def to_revision(self) -> Revision:
         """Return the core's values."""
         limits = limits_for(self.image_size, self.limits)
-        passing_px = limits.zone_mapping_px * limits.share("zone_mapping_px")
+        required_px = self.required_mapping_px or limits.zone_mapping_px * limits.share("zone_mapping_px")
+        least = self.early_finish_poses
         return Revision(
             code=self.code,
             name=self.name,
@@ -271,11 +289,13 @@ class SkuDocument(Document):
             pose_space=self.pose_space.to_pose_space(),
             corner_noise_px=self.corner_noise_px,
             tolerance=self.tolerance.to_tolerance(),
-            required_mapping_px=self.required_mapping_px or passing_px,
+            required_mapping_px=required_px,
             fixed=self.fixed,
             working_zone=None if self.working_zone is None else self.working_zone.to_region(),
             valid_region=None if self.valid_region is None else self.valid_region.to_region(),
             limits=limits,
+            early_finish=None if least is None else EarlyFinish(least, required_px),
+            extra_poses=self.extra_poses,
         )
 
 

@@ -71,6 +71,15 @@ class Mapping(Answer):
     valid_worst_px: float | None
 
 
+class EarlyFinish(Answer):
+    """How a run ended before its pose set was complete; 0.95 is the confidence of `proven_px`."""
+
+    taken: int = Field(description="Poses that were taken.")
+    not_needed: int = Field(description="Prescribed poses that were not.")
+    proven_px: float = Field(description="Mean mapping error over the working zone that is not exceeded.")
+    required_px: float = Field(description="The SKU's required_mapping_px.")
+
+
 EXAMPLE: JsonValue = {
     "id": "019a2b3c-4d5e-7f60-8a1b-2c3d4e5f6071",
     "run_id": "019a2b3c-11aa-7bb2-9cc3-44dd55ee66ff",
@@ -101,6 +110,7 @@ EXAMPLE: JsonValue = {
     "views": [],
     "starts": [{"name": "nominal", "rms_px": 0.117, "iterations": 6, "converged": True}],
     "agreement_px": 1e-9,
+    "early_finish": None,
     "versions": {"service": "0.1.0", "opencv": "5.0.0"},
     "created_at": "2026-11-22T07:32:33.574474Z",
 }
@@ -128,6 +138,7 @@ class Result(Answer):
     agreement_px: float | None = Field(
         description="Largest difference between the starts; null: one of them failed."
     )
+    early_finish: EarlyFinish | None = Field(description="Null where every prescribed pose was taken.")
     versions: dict[str, str]
     created_at: datetime
 

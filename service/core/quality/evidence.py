@@ -6,6 +6,7 @@ Not here: how any of it is judged (gates_*.py, verdict.py).
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from service.core.quality.early_finish import EarlyFinish
 from service.core.quality.limits import Limits
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import Intrinsics
@@ -34,13 +35,22 @@ class Refusal:
 
 
 @dataclass(frozen=True)
+class AddedPose:
+    """A pose that a run asked for beyond the prescribed ones, and the one that it stands in for, if any."""
+
+    pose: Pose
+    replaces: int | None = None
+
+
+@dataclass(frozen=True)
 class Expectation:
     """What a SKU says about the camera: its nominal intrinsics, limits, zones and prescribed poses.
 
     Zones are by default those of `coverage.py`, limits those of the image size. pose_of_view: for each
     detection in the order given, the index of the prescribed pose that it answers, or None; without it views
     are matched to their nearest poses. other_skus: nominals by code. used_for: by the content hash of an
-    image, another serial that it was used for.
+    image, another serial that it was used for. added: poses whose indices follow those of `poses`.
+    early_finish: when prescribed poses need not be taken; None: never.
     """
 
     nominal: Intrinsics
@@ -51,6 +61,8 @@ class Expectation:
     pose_of_view: tuple[int | None, ...] | None = None
     other_skus: Mapping[str, Intrinsics] = field(default_factory=dict)
     used_for: Mapping[str, str] = field(default_factory=dict)
+    added: tuple[AddedPose, ...] = ()
+    early_finish: EarlyFinish | None = None
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ class Reason(StrEnum):
     BLURRED_LENS = "blurred_lens"  # most views are blurred
     QUADRANT_RATIO = "quadrant_ratio"
     MISSING_POSES = "missing_poses"
+    EARLY_FINISH = "early_finish"  # poses are missing, and the accuracy is proven without them
     MATCH = "match_px"
     VIEW_SEPARATION = "view_separation_px"
     IMAGE_COVERAGE = "image_coverage"

@@ -112,7 +112,7 @@ def _judge(evidence: Evidence) -> Judged:
     measurements = (
         *measure_frame(evidence),
         *measure_sharpness(evidence),
-        *measure_poses(evidence),
+        *measure_poses(evidence, zone),
         *measure_fit(evidence),
         *measure_certainty(evidence, zone, valid),
         *measure_bias(evidence),

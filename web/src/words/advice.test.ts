@@ -59,6 +59,8 @@ describe("the advice of a measurement", () => {
       bend: 0.2,
       share: 0.5,
       sku: "y",
+      taken: 9,
+      not_needed: 3,
     };
     for (const [language, say] of [
       ["en", en],

@@ -66,6 +66,10 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ poses }: About) => `Nicht aufgenommen: ${poses}.`,
     remedy: "An jeder dieser Posen ein Bild aufnehmen.",
   },
+  early_finish: {
+    good: ({ fact }: About) =>
+      `${fact("taken")} Posen haben die geforderte Genauigkeit bewiesen; ${fact("not_needed")} vorgeschriebene wurden nicht gebraucht.`,
+  },
   match_px: {
     good: "Jede Ansicht liegt auf ihrer Sollpose.",
     bad: ({ views }: About) =>

@@ -54,6 +54,10 @@ export const adviceEn = {
     bad: ({ poses }: About) => `Not taken: ${poses}.`,
     remedy: "Take a picture at each of these poses.",
   },
+  early_finish: {
+    good: ({ fact }: About) =>
+      `${fact("taken")} poses proved the required accuracy; ${fact("not_needed")} prescribed ones were not needed.`,
+  },
   match_px: {
     good: "Every view lies on its prescribed pose.",
     bad: ({ views }: About) =>

@@ -66,6 +66,10 @@ export const adviceZh: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ poses }: About) => `未采集：${poses}。`,
     remedy: "在这些位姿各拍一张图像。",
   },
+  early_finish: {
+    good: ({ fact }: About) =>
+      `${fact("taken")} 个位姿已证明达到要求的精度；${fact("not_needed")} 个规定位姿不再需要。`,
+  },
   match_px: {
     good: "每个视图都在规定的位姿上。",
     bad: ({ views }: About) => (views === "" ? "没有视图在规定的位姿上。" : `离规定的位姿太远：${views}。`),

@@ -55,9 +55,10 @@ export const deKiosk: KioskWords = {
   guide_pose: (number) => `Pose ${number}`,
   guide_pose_taken: (number) => `Pose ${number}, aufgenommen. Noch einmal aufnehmen`,
   guide_pose_now: (number) => `Pose ${number}, jetzt gesucht`,
-  guide_accuracy: "Brennweite bisher",
-  guide_promised: (value) => `geplant ± ${value}`,
+  guide_accuracy: "Genauigkeit",
   guide_accuracy_none: "nach einigen Posen",
+  guide_accuracy_growing: "wächst",
+  guide_accuracy_reached: "erreicht",
   guide_manual: "Aufnahme drücken, sobald das Target im gestrichelten Umriss liegt",
 
   figures_title: "Zahlen",
@@ -67,6 +68,11 @@ export const deKiosk: KioskWords = {
   figures_judged: "Beurteilt",
   figures_waited: "Bild bis Zustand",
   figures_trip: "Hin und zurück",
+  figures_focal: "Brennweite",
+  figures_promised: (value) => `geplant ${value}`,
+  figures_mapping: "Abbildungsfehler",
+  figures_mapping_of: (mean, worst, required) =>
+    `${mean} im Mittel, ${worst} höchstens, ${required} gefordert`,
   figures_problem: "Problem",
   figures_per_second: (value) => `${value} / s`,
 

@@ -53,9 +53,10 @@ export const zhKiosk: KioskWords = {
   guide_pose: (number) => `位姿 ${number}`,
   guide_pose_taken: (number) => `位姿 ${number}，已采集。重新采集`,
   guide_pose_now: (number) => `位姿 ${number}，当前目标`,
-  guide_accuracy: "目前焦距",
-  guide_promised: (value) => `计划 ± ${value}`,
+  guide_accuracy: "精度",
   guide_accuracy_none: "采集几个位姿后显示",
+  guide_accuracy_growing: "提升中",
+  guide_accuracy_reached: "已达到",
   guide_manual: "标定板与虚线框重合时，按“采集”",
 
   figures_title: "数据",
@@ -65,6 +66,10 @@ export const zhKiosk: KioskWords = {
   figures_judged: "已判断",
   figures_waited: "帧到状态",
   figures_trip: "往返",
+  figures_focal: "焦距",
+  figures_promised: (value) => `计划 ${value}`,
+  figures_mapping: "映射误差",
+  figures_mapping_of: (mean, worst, required) => `平均 ${mean}，最大 ${worst}，要求 ${required}`,
   figures_problem: "问题",
   figures_per_second: (value) => `${value} / s`,
 
