@@ -15,7 +15,7 @@ from service.core.guidance.actions import AddedFor
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.storage.columns import Json, UtcDateTime, new_id, word
-from service.storage.words import FrameOrigin, JobState, Language, Publication, Role
+from service.storage.words import CaptureRole, FrameOrigin, JobState, Language, Publication, Role
 
 JsonObject = dict[str, Any]
 JsonArray = list[Any]
@@ -150,6 +150,7 @@ class StationRow(Row):
         default=FrameOrigin.BROWSER.value, server_default=FrameOrigin.BROWSER.value
     )
     language: Mapped[Language | None] = mapped_column(word(Language, "language"), default=None)
+    fixture: Mapped[JsonObject | None] = mapped_column(default=None)
     created_at: Mapped[datetime]
 
 
@@ -195,7 +196,10 @@ class RunPoseRow(Row):
 
 
 class CaptureRow(Row):
-    """One accepted image of a run and what was seen in it; the image is in the blob store under `sha256`."""
+    """One accepted image of a run and what was seen in it; the image is in the blob store under `sha256`.
+
+    fixture: where the target stood, of a picture that is to say where the camera is in the vehicle.
+    """
 
     __tablename__ = "capture"
     __table_args__ = (
@@ -203,12 +207,19 @@ class CaptureRow(Row):
         UniqueConstraint("run_id", "sha256"),
         CheckConstraint("number >= 1", name="number_from_1"),
         CheckConstraint("length(sha256) = 64", name="sha256_is_hex"),
+        CheckConstraint("role <> 'extrinsics' OR fixture IS NOT NULL", name="extrinsics_has_fixture"),
         Index(None, "sha256"),
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     run_id: Mapped[UUID] = mapped_column(_refers_to("run.id"))
     number: Mapped[int]
+    role: Mapped[CaptureRole] = mapped_column(
+        word(CaptureRole, "role"),
+        default=CaptureRole.INTRINSICS,
+        server_default=CaptureRole.INTRINSICS.value,
+    )
+    fixture: Mapped[JsonObject | None] = mapped_column(default=None)
     pose_index: Mapped[int | None] = mapped_column(default=None)
     file_name: Mapped[str]
     sha256: Mapped[str]

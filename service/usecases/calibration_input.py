@@ -3,6 +3,7 @@
 The same input gives the same result to the last digit; images are not needed again.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from uuid import UUID
 
@@ -10,27 +11,34 @@ import numpy as np
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from service.core.quality.evidence import AddedPose, Expectation, NamedDetection
+from service.core.quality.evidence import AddedPose, Expectation, FixedTargetViews, NamedDetection
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.run import Purpose
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
+from service.core.vision.target import parse_target
 from service.storage.models import CaptureRow, RunRow, SkuRevisionRow, SkuRow
-from service.storage.words import Publication
-from service.usecases.observation import sharpness_from_json
+from service.storage.words import CaptureRole, Publication
+from service.usecases.fixture_document import FixtureDocument
+from service.usecases.observation import JsonObject, sharpness_from_json
 from service.usecases.run_poses import read_added, read_prescribed, view_added
 from service.usecases.sku_document import Revision, SkuDocument
 
 
 @dataclass(frozen=True)
 class CalibrationInput:
-    """The captures of a run in their order, what was detected in them, and what the SKU says."""
+    """The captures of a run in their order, what was detected in them, and what the SKU says.
+
+    capture_ids: of the detections, then of the pictures of the fixed target.
+    """
 
     run_id: UUID
     capture_ids: tuple[UUID, ...]
     detections: tuple[NamedDetection, ...]
     revision: Revision
     expectation: Expectation
+    fixed_target: FixedTargetViews | None
+    fixture: JsonObject | None
 
 
 def load_input(session: Session, run: RunRow) -> CalibrationInput:
@@ -38,7 +46,9 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
     document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
     revision = SkuDocument.model_validate(document).to_revision()
     query = select(CaptureRow).where(CaptureRow.run_id == run.id).order_by(CaptureRow.number)
-    captures = list(session.scalars(query))
+    all_captures = list(session.scalars(query))
+    captures = [one for one in all_captures if one.role is CaptureRole.INTRINSICS]
+    of_fixture = [one for one in all_captures if one.role is CaptureRole.EXTRINSICS]
     prescribed = read_prescribed(session, run)
     expectation = Expectation(
         nominal=revision.intrinsics,
@@ -53,13 +63,29 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
             AddedPose(one.pose, one.replaces) for one in map(view_added, read_added(session, run.id))
         ),
         early_finish=revision.early_finish,
+        mounting=revision.mounting,
     )
-    ids = tuple(capture.id for capture in captures)
-    return CalibrationInput(run.id, ids, tuple(map(_detection, captures)), revision, expectation)
+    return CalibrationInput(
+        run_id=run.id,
+        capture_ids=tuple(capture.id for capture in (*captures, *of_fixture)),
+        detections=tuple(map(_detection, captures)),
+        revision=revision,
+        expectation=expectation,
+        fixed_target=_fixed_target(of_fixture) if of_fixture else None,
+        fixture=of_fixture[0].fixture if of_fixture else None,
+    )
+
+
+def _fixed_target(captures: Sequence[CaptureRow]) -> FixedTargetViews:
+    """Return the pictures of the fixed target, with its place as it was when they were taken."""
+    document = FixtureDocument.model_validate(captures[0].fixture)
+    return FixedTargetViews(
+        parse_target(document.target), document.to_fixed_target(), tuple(map(_detection, captures))
+    )
 
 
 def calibrate(source: CalibrationInput) -> Judged:
-    """Calibrate and judge; raises TooFewViews, DegenerateViews."""
+    """Calibrate and judge; raises TooFewViews, DegenerateViews, PoseUndetermined."""
     revision = source.revision
     return calibrate_and_judge(
         source.detections,
@@ -67,6 +93,7 @@ def calibrate(source: CalibrationInput) -> Judged:
         revision.intrinsics.lens,
         source.expectation,
         fixed=revision.fixed,
+        fixed_target=source.fixed_target,
     )
 
 

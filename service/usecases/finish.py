@@ -32,7 +32,8 @@ JsonObject = dict[str, Any]
 def finish_run(database: Database, run_id: UUID, who: str, now: datetime) -> ResultView:
     """Return the stored result of a run that was open.
 
-    Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews (the run stays open);
+    Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews, PoseUndetermined of the
+    fixed target (the run stays open);
     StateForbids when captures came or went while it was calibrated.
     """
     with database.read() as session:
@@ -58,7 +59,7 @@ def recompute(session: Session, run_id: UUID) -> JsonObject:
 
 def _check_unchanged(session: Session, source: CalibrationInput) -> None:
     query = select(CaptureRow.id).where(CaptureRow.run_id == source.run_id).order_by(CaptureRow.number)
-    if tuple(session.scalars(query)) != source.capture_ids:
+    if set(session.scalars(query)) != set(source.capture_ids):
         raise StateForbids(
             "Captures were added or withdrawn while the run was finished. Finish it again.",
             run=f"/api/v1/runs/{source.run_id}",
@@ -96,8 +97,9 @@ def _store(
 
 
 def _document(source: CalibrationInput, judged: Judged) -> JsonObject:
-    names = [detection.name for detection in source.detections]
-    return result_document(judged, dict(zip(names, source.capture_ids, strict=True)))
+    fixed = () if source.fixed_target is None else source.fixed_target.views
+    names = [detection.name for detection in (*source.detections, *fixed)]
+    return result_document(judged, dict(zip(names, source.capture_ids, strict=True)), source.fixture)
 
 
 def _measurements(calibration_id: UUID, measurements: Iterable[Measurement]) -> list[MeasurementRow]:

@@ -17,6 +17,7 @@ from service.core.quality.early_finish import proven_mapping_px
 from service.core.vision.calibration import View, refine_intrinsics
 from service.core.vision.uncertainty import mapping_error
 from service.storage.models import CaptureRow
+from service.storage.words import CaptureRole
 from service.usecases.observation import number_or_null
 from service.usecases.sku_document import Revision
 
@@ -45,7 +46,9 @@ class Estimate:
 def estimate_so_far(session: Session, run_id: UUID, revision: Revision) -> Estimate | None:
     """Return what the captures of a run say so far; None while they do not determine the camera."""
     points = revision.target.object_points
-    query = select(CaptureRow.corner_ids, CaptureRow.corners).where(CaptureRow.run_id == run_id)
+    query = select(CaptureRow.corner_ids, CaptureRow.corners).where(
+        CaptureRow.run_id == run_id, CaptureRow.role == CaptureRole.INTRINSICS
+    )
     views = [
         View(points[np.array(ids)], np.array(corners, dtype=np.float64).reshape(-1, 2))
         for ids, corners in session.execute(query.order_by(CaptureRow.number))

@@ -33,6 +33,7 @@ class ResultView:
     starts: list[dict[str, Any]]
     agreement_px: float | None
     early_finish: dict[str, Any] | None
+    extrinsics: dict[str, Any] | None
     versions: dict[str, str]
     created_at: datetime
 
@@ -82,6 +83,7 @@ def _view(session: Session, row: CalibrationRow) -> ResultView:
         starts=document["starts"],
         agreement_px=document["agreement_px"],
         early_finish=document.get("early_finish"),
+        extrinsics=document.get("extrinsics"),
         versions=row.versions,
         created_at=row.created_at,
     )

@@ -7,6 +7,7 @@ Here: its fields, their checks and the way into the core's values. Not here: rev
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
+import numpy as np
 from pydantic import (
     AfterValidator,
     BaseModel,
@@ -27,6 +28,7 @@ from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
 from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.target import Chessboard, parse_target
 from service.core.vision.tolerance import Tolerance
+from service.core.vision.transforms import Pose
 from service.core.vision.uncertainty import Region
 from service.usecases.text import Code, Label
 
@@ -60,6 +62,7 @@ def check_lens(name: str) -> str:
 
 LensName = Annotated[str, AfterValidator(check_lens), Field(json_schema_extra={"enum": list(LENSES)})]
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
+Angle = Annotated[float, Field(ge=-7, le=7)]  # rad; a rotation vector needs no more than π
 Corner = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
 DegreeRange = Annotated[tuple[Degrees, Degrees], AfterValidator(check_ordered)]
 MetreRange = Annotated[tuple[Metres, Metres], AfterValidator(check_ordered)]
@@ -128,6 +131,17 @@ class ToleranceDocument(Document):
         return Tolerance(**self.model_dump(exclude_none=True))
 
 
+class PoseDocument(Document):
+    """A pose: rotation vector, rad, and translation, m."""
+
+    rvec: Annotated[tuple[Angle, Angle, Angle], Field(strict=False)]
+    tvec: Corner
+
+    def to_pose(self) -> Pose:
+        """Return the core's pose."""
+        return Pose(np.array(self.rvec, dtype=np.float64), np.array(self.tvec, dtype=np.float64))
+
+
 class RegionDocument(Document):
     """A rectangle of the image, px."""
 
@@ -169,6 +183,7 @@ class Revision:
     limits: Limits
     early_finish: EarlyFinish | None
     extra_poses: int
+    mounting: Pose | None
 
 
 EXAMPLE: JsonValue = {
@@ -233,6 +248,9 @@ class SkuDocument(Document):
     valid_region: RegionDocument | None = Field(
         default=None, description="Where its map is used; null: default."
     )
+    mounting: PoseDocument | None = Field(
+        default=None, description="Nominal `T_vehicle_cam`: where the camera belongs in the vehicle."
+    )
     limits: dict[str, Any] = Field(
         default_factory=dict,
         description="Limits of the gates that differ from the defaults by image size; any of: "
@@ -296,6 +314,7 @@ class SkuDocument(Document):
             limits=limits,
             early_finish=None if least is None else EarlyFinish(least, required_px),
             extra_poses=self.extra_poses,
+            mounting=None if self.mounting is None else self.mounting.to_pose(),
         )
 
 

@@ -17,6 +17,8 @@ ELSEWHERE = {
     "conflict",
     "cursor-invalid",
     "database-outdated",
+    "fixture-changed",
+    "fixture-missing",
     "folder-unusable",
     "idempotency-key-reused",
     "image-format-unsupported",

@@ -11,6 +11,7 @@ from service.core.quality.limits import Limits
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
+from service.core.vision.extrinsics import FixedTarget
 from service.core.vision.target import Chessboard
 from service.core.vision.transforms import Array, Pose
 from service.core.vision.uncertainty import Region
@@ -50,7 +51,7 @@ class Expectation:
     detection in the order given, the index of the prescribed pose that it answers, or None; without it views
     are matched to their nearest poses. other_skus: nominals by code. used_for: by the content hash of an
     image, another serial that it was used for. added: poses whose indices follow those of `poses`.
-    early_finish: when prescribed poses need not be taken; None: never.
+    early_finish: when prescribed poses need not be taken; None: never. mounting: the nominal T_vehicle_cam.
     """
 
     nominal: Intrinsics
@@ -63,6 +64,16 @@ class Expectation:
     used_for: Mapping[str, str] = field(default_factory=dict)
     added: tuple[AddedPose, ...] = ()
     early_finish: EarlyFinish | None = None
+    mounting: Pose | None = None
+
+
+@dataclass(frozen=True)
+class FixedTargetViews:
+    """Pictures of a target at a known place in the vehicle: its pattern, its place, what was detected."""
+
+    target: Chessboard
+    place: FixedTarget
+    views: tuple[NamedDetection, ...]
 
 
 @dataclass(frozen=True)
@@ -81,6 +92,7 @@ class Evidence:
     pose_of_view: tuple[int | None, ...] | None
     working_grid: Array
     valid_grid: Array
+    fixed_target: FixedTargetViews | None = None
 
     @property
     def image_size(self) -> tuple[int, int]:

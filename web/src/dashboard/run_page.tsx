@@ -9,6 +9,7 @@ import { Empty, Loading, ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
 import { useCaptureDetails } from "./capture_details";
 import { CapturesPanel } from "./captures_panel";
+import { ExtrinsicsPanel } from "./extrinsics_panel";
 import { GatesTable } from "./gates_table";
 import { IntrinsicsTable } from "./intrinsics_table";
 import { ResidualsPanel } from "./residuals_panel";
@@ -55,6 +56,7 @@ function Run({ run }: { run: RunDetail }): JSX.Element {
           <GatesTable gates={result.gates} />
           <div class="column">
             <IntrinsicsTable result={result} />
+            <ExtrinsicsPanel result={result} />
             <ResidualsPanel
               result={result}
               captures={captures}

@@ -60,12 +60,20 @@ export interface BoxDocument {
   high_m: [number, number, number];
 }
 
+/** A pose: rotation vector, rad, and translation, m. */
+export interface CameraPose {
+  rvec: [number, number, number];
+  tvec: [number, number, number];
+}
+
 /** One accepted image of a run. */
 export interface Capture {
   id: string;
   run_id: string;
   /** Order within the run, from 1. */
   number: number;
+  /** `extrinsics`: a picture of the station's fixed target. */
+  role: CaptureRole;
   pose_index: number | null;
   file_name: string;
   sha256: string;
@@ -86,6 +94,8 @@ export interface CaptureDetail {
   run_id: string;
   /** Order within the run, from 1. */
   number: number;
+  /** `extrinsics`: a picture of the station's fixed target. */
+  role: CaptureRole;
   pose_index: number | null;
   file_name: string;
   sha256: string;
@@ -106,6 +116,9 @@ export interface CaptureDetail {
   contrast: number;
 }
 
+/** What a capture is for: the calibration of the camera, or its place in the vehicle. */
+export type CaptureRole = "intrinsics" | "extrinsics";
+
 /** What is known of a camera before one was calibrated: its field of view. */
 export interface DataSheetDocument {
   hfov_deg: number;
@@ -124,6 +137,28 @@ export interface EarlyFinish {
   required_px: number;
 }
 
+/** Where the camera is in the vehicle, from pictures of the station's fixed target. */
+export interface Extrinsics {
+  /** `T_vehicle_cam`: maps the camera frame into the vehicle frame. */
+  pose: CameraPose;
+  /** 6x6: of a rotation exp(φ) from the left, φ in the vehicle frame, rad; then of the position, m. */
+  covariance: number[][];
+  /** About the vehicle frame's axes. */
+  rotation_sd_mdeg: [number, number, number];
+  /** Along the vehicle frame's axes. */
+  translation_sd_mm: [number, number, number];
+  parts: SdParts;
+  rms_px: number;
+  sigma_px: number;
+  /** Rms over that of the target's other possible tilt; 0: none. */
+  ambiguity: number;
+  /** Null for one picture. */
+  image_agreement_px: number | null;
+  /** As it was when the pictures were taken. */
+  fixture: FixtureDocument;
+  views: ViewResult[];
+}
+
 /** A measurement that failed, and in how many of the runs. */
 export interface FailedGate {
   gate: string;
@@ -136,6 +171,18 @@ export interface FieldError {
   /** Where: a JSON pointer into the body, or the parameter's place and name. */
   pointer: string;
   detail: string;
+}
+
+/** A target that stands at a known place in the vehicle frame when a vehicle is at the station. */
+export interface FixtureDocument {
+  /** Pattern of the fixed target. */
+  target: string;
+  /** `T_vehicle_board`: maps the board's coordinates into the vehicle's. */
+  pose: PoseDocument;
+  /** Sd of the board's origin along each axis. */
+  translation_sd_mm: number;
+  /** Sd of its rotation about each axis through its origin. */
+  rotation_sd_mdeg: number;
 }
 
 /** A pose of the board in the camera's frame (`T_cam_board`): rotation vector, rad, and translation, m. */
@@ -274,6 +321,8 @@ export interface NewStation {
   source?: string;
   /** In which language the kiosk starts; null: in its browser's. */
   language?: Language | null;
+  /** Where a target stands in the vehicle frame, for extrinsics; null: nowhere. */
+  fixture?: FixtureDocument | null;
 }
 
 /** A board to register. */
@@ -341,6 +390,12 @@ export interface PlannedPose {
   tvec: [number, number, number];
   /** tl, tr, br, bl in the board's own order, px. */
   outer_corners: [number, number][];
+}
+
+/** A pose: rotation vector, rad, and translation, m. */
+export interface PoseDocument {
+  rvec: [number, number, number];
+  tvec: [number, number, number];
 }
 
 /** An ordered set of poses. `poses` is empty as long as the job plans. */
@@ -593,6 +648,8 @@ export interface Result {
   agreement_px: number | null;
   /** Null where every prescribed pose was taken. */
   early_finish: EarlyFinish | null;
+  /** Null without pictures of a fixed target. */
+  extrinsics: Extrinsics | null;
   versions: Record<string, string>;
   created_at: string;
 }
@@ -718,6 +775,13 @@ export interface RunSummary {
   finished_at: string | null;
 }
 
+/** What each source alone would leave. */
+export interface SdParts {
+  noise: WorstSd;
+  intrinsics: WorstSd;
+  fixture: WorstSd;
+}
+
 /** Widths of the board's edges, px; by image quadrant tl, tr, br, bl (null: too few edges). */
 export interface Sharpness {
   edge_width_px: number | null;
@@ -784,8 +848,10 @@ export interface SkuDocument {
   working_zone?: RegionDocument | null;
   /** Where its map is used; null: default. */
   valid_region?: RegionDocument | null;
+  /** Nominal `T_vehicle_cam`: where the camera belongs in the vehicle. */
+  mounting?: PoseDocument | null;
   /**
-   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
+   * Limits of the gates that differ from the defaults by image size; any of: parity_separation, contrast, edge_width_px, quadrant_ratio, match_share, view_separation_px, coverage, rms_px, smallest_rms_px, worst_view_ratio, outlier_share, focal_sd_share, centre_sd_px, zone_mapping_px, valid_mapping_px, agreement_px, monotone_ratio, square_pixels, bias_ratio, neighbour_correlation, half_difference, held_out_ratio, focal_off_share, translation_sd_mm, rotation_sd_mdeg, mounting_off_mm, mounting_off_mdeg, extrinsics_rms_px, image_agreement_px, tilt_ambiguity, centre_off_px; and `marginal`, by name the share of a limit from which on a value is MARGINAL.
    */
   limits?: Record<string, unknown>;
 }
@@ -818,6 +884,7 @@ export interface Station {
   /** Where frames come from; name, password and query of an address are shown as `***`. */
   source: string;
   language: Language | null;
+  fixture: FixtureDocument | null;
   created_at: string;
 }
 
@@ -826,6 +893,8 @@ export interface StationChange {
   source?: string | null;
   /** In which language the kiosk starts; null: in its browser's. */
   language?: Language | null;
+  /** Where a target stands in the vehicle frame, for extrinsics; null: nowhere. */
+  fixture?: FixtureDocument | null;
 }
 
 /** A station with its newest open run and its newest finished one. */
@@ -879,6 +948,12 @@ export interface WeightsShape {
   parameters?: number;
   mapping_mean?: number;
   mapping_worst?: number;
+}
+
+/** Standard deviations about and along the axes where they are largest. */
+export interface WorstSd {
+  rotation_sd_mdeg: number;
+  translation_sd_mm: number;
 }
 
 /**

@@ -28,8 +28,10 @@ export function SideColumn({ kiosk }: { kiosk: Kiosk }): JSX.Element | null {
           <b>{run.captured.length}</b>/{run.total}
         </span>
       </header>
-      <AddedPoseNote run={run} say={say} />
-      <PoseTiles run={run} isMirrored={kiosk.mirrored.value} onRetake={askRetake} />
+      <div class="poses">
+        <AddedPoseNote run={run} say={say} />
+        <PoseTiles run={run} isMirrored={kiosk.mirrored.value} onRetake={askRetake} />
+      </div>
       <Match
         share={live?.match ?? 0}
         isHeld={(live?.dwell ?? 0) > 0 || live?.is_capturing === true}

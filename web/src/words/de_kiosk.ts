@@ -120,6 +120,8 @@ export const deKiosk: KioskWords = {
   remedy_cross_check: "Die Bilder sind vielleicht von zwei Kameras: Etikett prüfen, dann neu kalibrieren.",
   remedy_bias: "Prüfen, ob das Target eben und sauber ist, dann neu kalibrieren.",
   remedy_model: "Die Linse ist nicht wie angegeben: Kamera dem Qualitätsingenieur geben.",
+  remedy_extrinsics:
+    "Die Kamera sitzt nicht wie vorgesehen, oder das Fahrzeug hat sich bewegt: Qualitätsingenieur rufen.",
   remedy_identity: "Das ist vielleicht eine andere Kamera als angegeben: Etikett und Kameratyp prüfen.",
   remedy_score: "Die Kamera ist weit von ihrem Datenblatt entfernt: dem Qualitätsingenieur geben.",
 

@@ -115,6 +115,8 @@ export const enKiosk = {
   remedy_cross_check: "The pictures may be of two cameras: check the label, then calibrate again.",
   remedy_bias: "Check that the board is flat and clean, then calibrate again.",
   remedy_model: "The lens is not as declared: hand the camera to the quality engineer.",
+  remedy_extrinsics:
+    "The camera is not mounted as it should be, or the vehicle moved: call the quality engineer.",
   remedy_identity: "This may be another camera than declared: check the label and the camera type.",
   remedy_score: "The camera is far from its data sheet: hand it to the quality engineer.",
 

@@ -111,6 +111,7 @@ export const zhKiosk: KioskWords = {
   remedy_cross_check: "图像可能来自两台相机：检查标签，然后重新标定。",
   remedy_bias: "检查标定板是否平整、干净，然后重新标定。",
   remedy_model: "镜头与申报的不符：把相机交给质量工程师。",
+  remedy_extrinsics: "相机安装不正确，或车辆移动过：请联系质量工程师。",
   remedy_identity: "这可能不是申报的相机：检查标签和相机型号。",
   remedy_score: "相机与数据手册相差很大：交给质量工程师。",
 
