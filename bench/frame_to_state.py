@@ -9,7 +9,9 @@ from service.core.errors import PoseUndetermined
 from service.core.guidance.actions import Frame
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.observation import Observation
-from service.core.guidance.session import GuidanceSettings, start_session, step
+from service.core.guidance.session import step
+from service.core.guidance.session_poses import start_session
+from service.core.guidance.session_state import GuidanceSettings
 from service.core.guidance.session_view import view
 from service.core.vision.camera import Intrinsics
 from service.core.vision.live_detection import LiveDetection, LiveWorkspace, detect_live

@@ -12,7 +12,9 @@ from service.core.errors import PoseUndetermined
 from service.core.guidance.actions import CaptureAccepted, CaptureFrame, Frame
 from service.core.guidance.hints import DIRECTIONS, Hint, ShownHint
 from service.core.guidance.observation import Observation
-from service.core.guidance.session import GuidanceSettings, SessionState, start_session, step
+from service.core.guidance.session import step
+from service.core.guidance.session_poses import start_session
+from service.core.guidance.session_state import GuidanceSettings, SessionState
 from service.core.guidance.session_view import view
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.pose import estimate_pose

@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from service.core.errors import DegenerateViews, ServiceError, TooFewViews
 from service.core.guidance.actions import CaptureAccepted, CaptureFrame, CaptureRefused, Frame
 from service.core.guidance.comparison import default_tolerances
-from service.core.guidance.session import GuidanceSettings, SessionState, start_session, step
+from service.core.guidance.session import step
+from service.core.guidance.session_poses import start_session
+from service.core.guidance.session_state import GuidanceSettings, SessionState
 from service.core.guidance.session_view import view
 from service.core.quality.evidence import Expectation, NamedDetection
 from service.core.quality.limits import default_limits

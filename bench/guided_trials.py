@@ -15,7 +15,7 @@ import numpy as np
 from bench.geometric_kiosk import OPPOSITE, GuidedRun, as_told, guide_hand
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import Hint, mirror_hint
-from service.core.guidance.session import GuidanceSettings
+from service.core.guidance.session_state import GuidanceSettings
 from service.core.planning.plan import plan_pose_set
 from service.core.planning.pose_space import PoseSpace, sample_poses
 from service.core.vision.camera import Intrinsics

@@ -1,7 +1,7 @@
 """A small plant for tests: a camera variant, its poses, its pictures, and callers of each role."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout
 from functools import cache
 from io import StringIO
@@ -13,9 +13,11 @@ import httpx2
 import numpy as np
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
+from numpy.typing import NDArray
 
 from service.app import create_app
 from service.core.planning.plan import PoseSet
+from service.core.vision.transforms import Pose
 from service.settings import Settings
 from service.simulator.renderer import render
 from service.simulator.scene import Scene
@@ -60,10 +62,14 @@ def poses_json() -> list[JsonObject]:
 @cache
 def picture(index: int) -> bytes:
     """The picture, PNG, that the camera takes of one pose."""
+    return encode(shown_at(pose_set().poses[index], index))
+
+
+def shown_at(pose: Pose, seed: int, blur_px: float = 0.5) -> NDArray[np.uint8]:
+    """The picture that the camera takes of a pose."""
     sku = revision()
-    scene = Scene(intrinsics=sku.intrinsics, target=sku.target, noise_grey=1.0, blur_px=0.5)
-    image = render(scene, pose_set().poses[index], np.random.default_rng(index))
-    return encode(image)
+    scene = Scene(intrinsics=sku.intrinsics, target=sku.target, noise_grey=1.0, blur_px=blur_px)
+    return render(scene, pose, np.random.default_rng(seed))
 
 
 def encode(image: Any, suffix: str = ".png") -> bytes:
@@ -92,12 +98,15 @@ class Plant:
         """Post JSON."""
         return self.call("POST", path, role, json=body, **rest)
 
-    def publish_sku(self, with_poses: bool = True) -> None:
-        """Publish the SKU, and its pose set if asked."""
-        self.expect(201, self.post("/skus", SKU))
+    def publish_sku(
+        self, with_poses: bool = True, poses: Sequence[JsonObject] | None = None, **changes: Any
+    ) -> None:
+        """Publish the SKU, with changes, and its pose set (or other poses) if asked."""
+        self.expect(201, self.post("/skus", {**SKU, **changes}))
         self.expect(200, self.post("/skus/tiny/revisions/1/publish"))
         if with_poses:
-            made = self.expect(201, self.post("/skus/tiny/revisions/1/pose-sets", {"poses": poses_json()}))
+            given = {"poses": poses or poses_json()}
+            made = self.expect(201, self.post("/skus/tiny/revisions/1/pose-sets", given))
             self.expect(200, self.post(f"/pose-sets/{made['pose_set']['id']}/publish"))
 
     def open_run(self, serial: str = "VIN-1", **more: Any) -> str:

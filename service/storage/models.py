@@ -12,10 +12,11 @@ from uuid import UUID
 from sqlalchemy import CheckConstraint, Double, ForeignKey, Index, MetaData, String, UniqueConstraint, Uuid
 from sqlalchemy.orm import DeclarativeBase, Mapped, MappedAsDataclass, mapped_column
 
+from service.core.guidance.actions import AddedFor
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.storage.columns import Json, UtcDateTime, new_id, word
-from service.storage.words import FrameOrigin, JobState, Language, Publication, Role
+from service.storage.words import CaptureRole, FrameOrigin, JobState, Language, Publication, Role
 
 JsonObject = dict[str, Any]
 JsonArray = list[Any]
@@ -151,6 +152,7 @@ class StationRow(Row):
         default=FrameOrigin.BROWSER.value, server_default=FrameOrigin.BROWSER.value
     )
     language: Mapped[Language | None] = mapped_column(word(Language, "language"), default=None)
+    fixture: Mapped[JsonObject | None] = mapped_column(default=None)
     created_at: Mapped[datetime]
 
 
@@ -180,8 +182,26 @@ class RunRow(Row):
     finished_at: Mapped[datetime | None] = mapped_column(default=None)
 
 
+class RunPoseRow(Row):
+    """A pose that a run asks for beyond its pose set; its index follows those of the set."""
+
+    __tablename__ = "run_pose"
+    __table_args__ = (UniqueConstraint("run_id", "pose_index"),)
+
+    id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
+    run_id: Mapped[UUID] = mapped_column(refers_to("run.id"))
+    pose_index: Mapped[int]
+    pose: Mapped[JsonObject]
+    reason: Mapped[AddedFor] = mapped_column(word(AddedFor, "reason"))
+    replaces: Mapped[int | None] = mapped_column(default=None)
+    created_at: Mapped[datetime]
+
+
 class CaptureRow(Row):
-    """One accepted image of a run and what was seen in it; the image is in the blob store under `sha256`."""
+    """One accepted image of a run and what was seen in it; the image is in the blob store under `sha256`.
+
+    fixture: where the target stood, of a picture that is to say where the camera is in the vehicle.
+    """
 
     __tablename__ = "capture"
     __table_args__ = (
@@ -189,12 +209,19 @@ class CaptureRow(Row):
         UniqueConstraint("run_id", "sha256"),
         CheckConstraint("number >= 1", name="number_from_1"),
         CheckConstraint("length(sha256) = 64", name="sha256_is_hex"),
+        CheckConstraint("role <> 'extrinsics' OR fixture IS NOT NULL", name="extrinsics_has_fixture"),
         Index(None, "sha256"),
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     run_id: Mapped[UUID] = mapped_column(refers_to("run.id"))
     number: Mapped[int]
+    role: Mapped[CaptureRole] = mapped_column(
+        word(CaptureRole, "role"),
+        default=CaptureRole.INTRINSICS,
+        server_default=CaptureRole.INTRINSICS.value,
+    )
+    fixture: Mapped[JsonObject | None] = mapped_column(default=None)
     pose_index: Mapped[int | None] = mapped_column(default=None)
     file_name: Mapped[str]
     sha256: Mapped[str]

@@ -39,6 +39,13 @@ class Language(StrEnum):
     ZH = "zh"
 
 
+class CaptureRole(StrEnum):
+    """What a capture is for: the calibration of the camera, or its place in the vehicle."""
+
+    INTRINSICS = "intrinsics"
+    EXTRINSICS = "extrinsics"
+
+
 class FrameOrigin(StrEnum):
     """Where live frames come from: the kiosk's own camera, the simulator, a camera that the service reads."""
 

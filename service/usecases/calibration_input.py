@@ -4,32 +4,34 @@ The same input gives the same result to the last digit; images are not needed ag
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 from uuid import UUID
 
 import numpy as np
 from sqlalchemy import select
 from sqlalchemy.orm import Session
 
-from service.core.quality.evidence import Expectation, NamedDetection
+from service.core.quality.evidence import AddedPose, Expectation, FixedTargetViews, NamedDetection
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.run import Purpose
 from service.core.vision.detection import Detection
-from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.core.vision.target import parse_target
+from service.storage.models import CaptureRow, RunRow, SkuRevisionRow
+from service.storage.words import CaptureRole
+from service.usecases.fixture_document import FixtureDocument
 from service.usecases.identity import load_identity
-from service.usecases.observation import pose_from_json, sharpness_from_json
+from service.usecases.observation import JsonObject, sharpness_from_json
+from service.usecases.run_poses import read_added, read_prescribed, view_added
 from service.usecases.sku_document import Revision, SkuDocument
-
-JsonObject = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class CalibrationInput:
     """The captures of a run in their order, what was detected in them, and what the SKU says.
 
-    identity: names what its camera is told from others by, as it is stored with the result; None for results
-    of before.
+    capture_ids: of the detections, then of the pictures of the fixed target. identity: names what its camera
+    is told from others by, as it is stored with the result; None for results of before.
     """
 
     run_id: UUID
@@ -38,6 +40,8 @@ class CalibrationInput:
     revision: Revision
     expectation: Expectation
     identity: JsonObject | None
+    fixed_target: FixedTargetViews | None
+    fixture: JsonObject | None
 
 
 def load_input(session: Session, run: RunRow) -> CalibrationInput:
@@ -45,30 +49,51 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
     document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
     revision = SkuDocument.model_validate(document).to_revision()
     query = select(CaptureRow).where(CaptureRow.run_id == run.id).order_by(CaptureRow.number)
-    captures = list(session.scalars(query))
-    pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
+    all_captures = list(session.scalars(query))
+    captures = [one for one in all_captures if one.role is CaptureRole.INTRINSICS]
+    of_fixture = [one for one in all_captures if one.role is CaptureRole.EXTRINSICS]
+    prescribed = read_prescribed(session, run)
     identity = load_identity(session, run)
     expectation = Expectation(
         nominal=revision.intrinsics,
         limits=revision.limits,
         working_zone=revision.working_zone,
         valid_region=revision.valid_region,
-        poses=None if pose_set is None else tuple(pose_from_json(pose) for pose in pose_set.poses),
-        pose_of_view=None if pose_set is None else tuple(capture.pose_index for capture in captures),
+        poses=prescribed,
+        pose_of_view=None if prescribed is None else tuple(capture.pose_index for capture in captures),
         other_skus=identity.other_skus,
         population_units=identity.units,
         population=identity.population,
         other_populations=identity.other_populations,
         used_for=_used_for(session, run, [capture.sha256 for capture in captures]),
+        added=tuple(
+            AddedPose(one.pose, one.replaces) for one in map(view_added, read_added(session, run.id))
+        ),
+        early_finish=revision.early_finish,
+        mounting=revision.mounting,
     )
-    ids = tuple(capture.id for capture in captures)
     return CalibrationInput(
-        run.id, ids, tuple(map(_detection, captures)), revision, expectation, identity.reference
+        run_id=run.id,
+        capture_ids=tuple(capture.id for capture in (*captures, *of_fixture)),
+        detections=tuple(map(_detection, captures)),
+        revision=revision,
+        expectation=expectation,
+        identity=identity.reference,
+        fixed_target=_fixed_target(of_fixture) if of_fixture else None,
+        fixture=of_fixture[0].fixture if of_fixture else None,
+    )
+
+
+def _fixed_target(captures: Sequence[CaptureRow]) -> FixedTargetViews:
+    """Return the pictures of the fixed target, with its place as it was when they were taken."""
+    document = FixtureDocument.model_validate(captures[0].fixture)
+    return FixedTargetViews(
+        parse_target(document.target), document.to_fixed_target(), tuple(map(_detection, captures))
     )
 
 
 def calibrate(source: CalibrationInput) -> Judged:
-    """Calibrate and judge; raises TooFewViews, DegenerateViews."""
+    """Calibrate and judge; raises TooFewViews, DegenerateViews, PoseUndetermined."""
     revision = source.revision
     return calibrate_and_judge(
         source.detections,
@@ -76,6 +101,7 @@ def calibrate(source: CalibrationInput) -> Judged:
         revision.intrinsics.lens,
         source.expectation,
         fixed=revision.fixed,
+        fixed_target=source.fixed_target,
     )
 
 

@@ -14,6 +14,7 @@ from sqlalchemy.orm import Session
 from service.core.errors import NotFound
 from service.ports import BlobStore
 from service.storage.models import CalibrationRow, CaptureRow
+from service.storage.words import CaptureRole
 from service.usecases.images import decode_image
 
 Point = tuple[float, float]
@@ -27,6 +28,7 @@ class CaptureView:
     id: UUID
     run_id: UUID
     number: int
+    role: CaptureRole
     pose_index: int | None
     file_name: str
     sha256: str
@@ -108,6 +110,7 @@ def _common(row: CaptureRow) -> dict[str, Any]:
         "id": row.id,
         "run_id": row.run_id,
         "number": row.number,
+        "role": row.role,
         "pose_index": row.pose_index,
         "file_name": row.file_name,
         "sha256": row.sha256,
@@ -123,5 +126,7 @@ def _common(row: CaptureRow) -> dict[str, Any]:
 
 def _view_in_calibration(session: Session, row: CaptureRow) -> dict[str, Any] | None:
     document = session.scalar(select(CalibrationRow.document).where(CalibrationRow.run_id == row.run_id))
-    views = [] if document is None else document["views"]
+    views = [] if document is None else list(document["views"])
+    if document is not None and document.get("extrinsics") is not None:
+        views += document["extrinsics"]["views"]
     return next((view for view in views if view["capture_id"] == str(row.id)), None)

@@ -14,13 +14,25 @@ from uuid import UUID
 from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
-from service.core.errors import DuplicateImage, Fact, NotFound, PoseIndexUnknown, PoseTaken
+from service.core.errors import (
+    DuplicateImage,
+    Fact,
+    FixtureChanged,
+    FixtureMissing,
+    NotFound,
+    PoseIndexUnknown,
+    PoseTaken,
+    ValidationFailed,
+)
 from service.core.run import check_open
+from service.core.vision.target import parse_target
 from service.ports import BlobStore
 from service.storage.database import Database
-from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.storage.models import CaptureRow, RunRow, SkuRevisionRow, StationRow
+from service.storage.words import CaptureRole
 from service.usecases.audit import record
 from service.usecases.capture_views import CaptureDetailView, view_capture_detail
+from service.usecases.fixture_document import FixtureDocument
 from service.usecases.images import image_sha256
 from service.usecases.observation import (
     Observation,
@@ -28,10 +40,10 @@ from service.usecases.observation import (
     Prescription,
     number_or_null,
     observe,
-    pose_from_json,
     pose_to_json,
     sharpness_to_json,
 )
+from service.usecases.run_poses import read_added, read_prescribed, view_added
 from service.usecases.runs import get_run
 from service.usecases.sku_document import SkuDocument
 
@@ -53,33 +65,38 @@ def add_capture(
     picture: Picture,
     *,
     pose_index: int | None,
+    role: CaptureRole = CaptureRole.INTRINSICS,
     who: str,
     now: datetime,
     facts: Mapping[str, Fact] = NO_FACTS,
 ) -> Accepted:
     """Accept an image into a run; the same image for the same pose is accepted once and answered again.
 
+    role: an image for the extrinsics shows the fixed target of the run's station, at no pose of the run.
     facts: what else the audit trail is to hold about the image, such as its camera.
 
-    Raises NotFound, RunAlreadyFinished, RunAborted, PoseIndexUnknown, PoseTaken, DuplicateImage, and what
-    `observe` raises.
+    Raises NotFound, RunAlreadyFinished, RunAborted, PoseIndexUnknown, PoseTaken, DuplicateImage,
+    FixtureMissing, FixtureChanged, and what `observe` raises.
     """
     sha256 = image_sha256(picture.content)
     with database.read() as session:
-        known = _find_same(session, run_id, sha256, pose_index)
+        known = _find_same(session, run_id, sha256, pose_index, role)
         if known is not None:
             return Accepted(known, is_new=False)
-        prescription = _prescription(session, run_id, pose_index)
+        fixture = _fixture(session, run_id, pose_index) if role is CaptureRole.EXTRINSICS else None
+        prescription = _prescription(session, run_id, pose_index, fixture)
     observation = observe(picture, prescription)
     blobs.put(picture.content)
     with database.write() as session:
         run = lock_open_run(session, run_id)
         # The same image may have come in meanwhile, by a repeated request.
-        known = _find_same(session, run_id, sha256, pose_index)
+        known = _find_same(session, run_id, sha256, pose_index, role)
         if known is not None:
             return Accepted(known, is_new=False)
         row = _insert(session, run, picture, observation, sha256=sha256, pose_index=pose_index, now=now)
-        record(session, now, who, "capture.add", f"run:{run_id}", **facts, number=row.number, sha256=sha256)
+        row.role, row.fixture = role, None if fixture is None else fixture.to_json()
+        facts = {**facts, "number": row.number, "sha256": sha256, "role": role.value}
+        record(session, now, who, "capture.add", f"run:{run_id}", **facts)
         return Accepted(view_capture_detail(session, row), is_new=True)
 
 
@@ -122,15 +139,15 @@ def lock_open_run(session: Session, run_id: UUID) -> RunRow:
 
 
 def _find_same(
-    session: Session, run_id: UUID, sha256: str, pose_index: int | None
+    session: Session, run_id: UUID, sha256: str, pose_index: int | None, role: CaptureRole
 ) -> CaptureDetailView | None:
     row = session.scalar(select(CaptureRow).where(CaptureRow.run_id == run_id, CaptureRow.sha256 == sha256))
     if row is None:
         return None
-    if row.pose_index != pose_index:
+    if (row.pose_index, row.role) != (pose_index, role):
         raise DuplicateImage(
-            f"This very image is capture {row.number} of the run already, for pose {row.pose_index}. "
-            "Take a new image for this pose.",
+            f"This very image is capture {row.number} of the run already, for "
+            f"{'the fixed target' if row.fixture else f'pose {row.pose_index}'}. Take a new image.",
             capture=f"/api/v1/captures/{row.id}",
             number=row.number,
             pose_index=row.pose_index,
@@ -138,20 +155,51 @@ def _find_same(
     return view_capture_detail(session, row)
 
 
-def _prescription(session: Session, run_id: UUID, pose_index: int | None) -> Prescription:
+def _fixture(session: Session, run_id: UUID, pose_index: int | None) -> FixtureDocument:
+    """Return the fixture of a run's station, for a picture of its target."""
+    if pose_index is not None:
+        raise ValidationFailed(
+            "A picture of the fixed target belongs to no pose of the run: leave pose_index out.",
+            pointer="/pose_index",
+        )
+    station_id = get_run(session, run_id).station_id
+    stored = None if station_id is None else session.get_one(StationRow, station_id).fixture
+    if stored is None:
+        raise FixtureMissing(
+            "Nobody said where the fixed target of this run's station stands. Give the station its fixture, "
+            "or open the run at a station that has one.",
+            run=f"/api/v1/runs/{run_id}",
+        )
+    query = select(CaptureRow.fixture).where(
+        CaptureRow.run_id == run_id, CaptureRow.role == CaptureRole.EXTRINSICS
+    )
+    if any(fixture != stored for fixture in session.scalars(query)):
+        raise FixtureChanged(
+            "The station's fixture was changed since this run's first picture of it. Withdraw those pictures "
+            "and take them again.",
+            run=f"/api/v1/runs/{run_id}",
+        )
+    return FixtureDocument.model_validate(stored)
+
+
+def _prescription(
+    session: Session, run_id: UUID, pose_index: int | None, fixture: FixtureDocument | None
+) -> Prescription:
     run = get_run(session, run_id)
     check_open(run.state, str(run_id))
     document = session.get_one(SkuRevisionRow, run.sku_revision_id).document
     revision = SkuDocument.model_validate(document).to_revision()
-    pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
-    poses = pose_set.poses if pose_set is not None else []
+    if fixture is not None:
+        return Prescription(revision.intrinsics, parse_target(fixture.target), None)
+    prescribed, added = read_prescribed(session, run) or (), read_added(session, run_id)
+    poses = (*prescribed, *(view_added(row).pose for row in added))
     if pose_index is not None and pose_index >= len(poses):
         raise PoseIndexUnknown(
-            f"The run's pose set has {len(poses)} poses, numbered from 0; there is no pose {pose_index}.",
+            f"The run has {len(poses)} poses, numbered from 0; there is no pose {pose_index}.",
             poses=len(poses),
             pose_index=pose_index,
         )
-    pose = None if pose_index is None else pose_from_json(poses[pose_index])
+    pose = None if pose_index is None else poses[pose_index]
     return Prescription(revision.intrinsics, revision.target, pose)
 
 

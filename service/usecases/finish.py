@@ -35,7 +35,8 @@ JsonObject = dict[str, Any]
 def finish_run(database: Database, keys: KeyRing, run_id: UUID, who: str, now: datetime) -> ResultView:
     """Return the stored result of a run that was open; its certificate is signed and stored with it.
 
-    Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews (the run stays open);
+    Raises NotFound, RunAlreadyFinished, RunAborted; TooFewViews, DegenerateViews, PoseUndetermined of the
+    fixed target (the run stays open);
     StateForbids when captures came or went while it was calibrated.
     """
     with database.read() as session:
@@ -46,10 +47,10 @@ def finish_run(database: Database, keys: KeyRing, run_id: UUID, who: str, now: d
     with database.write() as session:
         run = lock_open_run(session, run_id)
         _check_unchanged(session, source)
-        _store(session, run, source, judged, now)
-        record(
-            session, now, who, "run.finish", f"run:{run_id}", serial=run.serial, verdict=judged.verdict.value
-        )
+        row = _store(session, run, source, judged, now)
+        early = row.document["early_finish"]
+        facts = {"serial": run.serial, "verdict": judged.verdict.value}
+        record(session, now, who, "run.finish", f"run:{run_id}", **facts, **(early or {}))
         issue_certificate(session, keys, run_id, who, now)
         return read_result(session, run_id)
 
@@ -62,14 +63,17 @@ def recompute(session: Session, run_id: UUID) -> JsonObject:
 
 def _check_unchanged(session: Session, source: CalibrationInput) -> None:
     query = select(CaptureRow.id).where(CaptureRow.run_id == source.run_id).order_by(CaptureRow.number)
-    if tuple(session.scalars(query)) != source.capture_ids:
+    if set(session.scalars(query)) != set(source.capture_ids):
         raise StateForbids(
             "Captures were added or withdrawn while the run was finished. Finish it again.",
             run=f"/api/v1/runs/{source.run_id}",
         )
 
 
-def _store(session: Session, run: RunRow, source: CalibrationInput, judged: Judged, now: datetime) -> None:
+def _store(
+    session: Session, run: RunRow, source: CalibrationInput, judged: Judged, now: datetime
+) -> CalibrationRow:
+    """Store the result, and write down that it is to be announced."""
     result = judged.result
     row = CalibrationRow(
         run_id=run.id,
@@ -94,11 +98,13 @@ def _store(session: Session, run: RunRow, source: CalibrationInput, judged: Judg
     session.flush()
     admit_unit(session, run, row, now)
     outbox.append(session, "run.finished", f"vehicle:{run.serial}", _announcement(session, run, row), now)
+    return row
 
 
 def _document(source: CalibrationInput, judged: Judged) -> JsonObject:
-    names = [detection.name for detection in source.detections]
-    document = result_document(judged, dict(zip(names, source.capture_ids, strict=True)))
+    fixed = () if source.fixed_target is None else source.fixed_target.views
+    names = [detection.name for detection in (*source.detections, *fixed)]
+    document = result_document(judged, dict(zip(names, source.capture_ids, strict=True)), source.fixture)
     return document if source.identity is None else {**document, "identity": source.identity}
 
 

@@ -8,17 +8,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from uuid import UUID
 
-from service.core.errors import (
-    DegenerateViews,
-    Fact,
-    PoseTaken,
-    RunAborted,
-    RunAlreadyFinished,
-    ServiceError,
-    TooFewViews,
-)
+from service.core.errors import Fact, PoseTaken, RunAborted, RunAlreadyFinished, ServiceError
 from service.core.guidance.actions import (
     Action,
+    AddedPose,
+    AddPose,
     CaptureAccepted,
     CaptureFrame,
     CaptureRefused,
@@ -26,7 +20,9 @@ from service.core.guidance.actions import (
     Effect,
     Frame,
     ManualCapture,
+    NoPoseToAdd,
     PoseNotReached,
+    PoseWanted,
     Retake,
     RunComplete,
     SetAutomatic,
@@ -36,43 +32,43 @@ from service.core.guidance.actions import (
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import ShownHint
 from service.core.guidance.problems import FrameMissing, RevisionRetired
-from service.core.guidance.session import GuidanceSettings, start_session, step
+from service.core.guidance.session import step
+from service.core.guidance.session_poses import start_session
+from service.core.guidance.session_state import GuidanceSettings
 from service.core.guidance.session_view import view
-from service.core.vision.calibration import calibrate_intrinsics
 from service.core.vision.transforms import Pose
-from service.core.vision.view_stack import View
 from service.ports import BlobStore, Clock, LiveFrame
 from service.storage.database import Database
-from service.usecases.calibration_input import load_input
+from service.usecases.added_poses import NewPose, add_run_pose
 from service.usecases.captures import add_capture, withdraw_capture
 from service.usecases.finish import finish_run
 from service.usecases.guide_camera import view_camera
+from service.usecases.guide_estimate import Estimate, estimate_so_far
 from service.usecases.guide_frames import Eye, Pixels, to_png
+from service.usecases.guide_judgement import judge_captures
+from service.usecases.guide_new_pose import choose_new_pose
 from service.usecases.guide_next_pose import Postponed, choose_another, record_postponed
 from service.usecases.guide_refusals import refusal_of
 from service.usecases.guide_runs import GuidedRun, Wish, capture_of_pose, load_guided_run, take_run
 from service.usecases.guide_views import (
     AcceptedView,
-    AccuracyView,
     ClosedView,
     GuidedRunView,
     RefusedView,
     StateView,
     Told,
     WantedFrame,
-    view_accuracy,
     view_run,
     view_state,
     view_verdict,
 )
 from service.usecases.observation import Picture
 from service.usecases.results import read_result
-from service.usecases.runs import abort_run, get_run
+from service.usecases.runs import abort_run
 from service.usecases.signing import KeyRing
 
 # Of the limit that the gate holds: a match at the very limit might be a FAIL on the exact corners.
 TOLERANCE_OF_LIMIT = 0.9
-VIEWS_FOR_ACCURACY = 3
 
 
 @dataclass(frozen=True)
@@ -94,11 +90,11 @@ class GuidedSession:
         self.is_over = False
         self._plant, self._who = plant, who
         self._settings = _settings(run)
-        self._state = start_session(run.poses, run.captured, postponed=run.postponed)
+        self._state = start_session(run.poses, run.captured, postponed=run.postponed, added=run.added)
         self._hand: Pose | None = None
         self._eye = Eye(self._settings)
         self._wanted: CaptureFrame | None = None
-        self._accuracy = self._measure_accuracy()
+        self._estimate = self._estimate_so_far()
 
     @property
     def hints(self) -> tuple[ShownHint, ...]:
@@ -106,7 +102,7 @@ class GuidedSession:
         return view(self._state, self._settings).hints
 
     def begin(self) -> list[Told]:
-        """Return what is told first; a run that has all its captures is finished at once."""
+        """Return what is told first; a run that has the captures it needs is finished at once."""
         told: list[Told] = [self.show_run()]
         if self.run.is_retired:
             told.append(
@@ -117,11 +113,11 @@ class GuidedSession:
                     revision=self.run.number,
                 )
             )
-        return told + (self._finish() if self._state.current is None else [])
+        return [*told, *self._judge()]
 
     def show_run(self) -> GuidedRunView:
         """Return the run as a whole."""
-        return view_run(self.run, self._state, self._settings, self._accuracy)
+        return view_run(self.run, self._state, self._settings, self._estimate)
 
     def see(self, frame: LiveFrame) -> list[Told]:
         """Judge a live frame; raises WrongImageSize."""
@@ -157,14 +153,14 @@ class GuidedSession:
             return self._ended_elsewhere(error)
         except PoseTaken as error:
             # Somebody uploaded this pose over another interface: it has its capture.
-            followed = self._apply(CaptureAccepted(wanted.pose_index))
-            return [RefusedView(wanted.pose_index, error), self.show_run(), *followed]
+            self._accept(wanted.pose_index)
+            return [RefusedView(wanted.pose_index, error), self.show_run(), *self._judge()]
         except ServiceError as error:
             return self._refuse(wanted.pose_index, error)
-        self._accuracy = self._measure_accuracy()
-        followed = self._apply(CaptureAccepted(wanted.pose_index))
-        shown = replace(accepted, captured=sorted(self._state.captured), accuracy=self._accuracy)
-        return [shown, *followed]
+        self._accept(wanted.pose_index)
+        shown = self.show_run()
+        told = replace(accepted, captured=shown.captured, accuracy=shown.accuracy, estimate=shown.estimate)
+        return [told, *self._judge()]
 
     def miss(self, sequence: int) -> list[Told]:
         """Give up on the full picture that was asked for."""
@@ -209,6 +205,8 @@ class GuidedSession:
                 return [WantedFrame(sequence)]
             case PoseNotReached(pose_index, tried_s):
                 self._offer_another(pose_index, tried_s)
+            case PoseWanted():
+                return self._add_pose(effect)
             case RunComplete():
                 return self._finish()
             case DiscardCapture(pose_index):
@@ -223,6 +221,30 @@ class GuidedSession:
             postponed = Postponed(pose_index, another, tried_s)
             record_postponed(session, self.run.id, postponed, self._who, self._plant.clock.now())
         self._apply(TakeAnother(another))
+
+    def _accept(self, pose_index: int) -> None:
+        self._apply(CaptureAccepted(pose_index))
+        self._estimate = self._estimate_so_far()
+
+    def _judge(self) -> list[Told]:
+        """Go on by what the captures are worth: with a pose more, with the result, or as before."""
+        return self._apply(judge_captures(self._plant.database, self.run, self._state, self._estimate))
+
+    def _add_pose(self, wanted: PoseWanted) -> list[Told]:
+        """Ask for a new pose; it is stored before anybody is told of it."""
+        pose = choose_new_pose(self.run.revision, self._state, wanted, self._hand)
+        if pose is None:
+            return self._apply(NoPoseToAdd())
+        added = AddedPose(pose, wanted.reason, wanted.replaces)
+        new = NewPose(len(self._state.expected), added, wanted.tried_s)
+        try:
+            with self._plant.database.write() as session:
+                stored = add_run_pose(session, self.run.id, new, self._who, self._plant.clock.now())
+        except (RunAborted, RunAlreadyFinished) as error:
+            return self._ended_elsewhere(error)
+        self._apply(AddPose(stored))
+        self._estimate = self._estimate_so_far()
+        return [self.show_run()]
 
     def _store(self, pose_index: int, image: Pixels, facts: Mapping[str, Fact]) -> AcceptedView:
         plant = self._plant
@@ -242,10 +264,11 @@ class GuidedSession:
             capture_id=stored.id,
             number=stored.number,
             captured=[],
-            total=len(self.run.poses),
+            total=self._state.total,
             match_error_px=stored.match_error_px,
             edge_width_px=stored.edge_width_px,
             accuracy=None,
+            estimate=None,
         )
 
     def _refuse(self, pose_index: int, error: ServiceError) -> list[Told]:
@@ -262,7 +285,7 @@ class GuidedSession:
             # It is still stored, so it still counts.
             self._state = before
             raise
-        self._accuracy = self._measure_accuracy()
+        self._estimate = self._estimate_so_far()
         return [self.show_run()]
 
     def _withdraw(self, pose_index: int) -> None:
@@ -292,26 +315,12 @@ class GuidedSession:
         with self._plant.database.read() as session:
             return [view_verdict(self.run.serial, read_result(session, self.run.id))]
 
-    def _measure_accuracy(self) -> AccuracyView | None:
-        if len(self._state.captured) < VIEWS_FOR_ACCURACY:
-            return None
+    def _estimate_so_far(self) -> Estimate | None:
         with self._plant.database.read() as session:
-            source = load_input(session, get_run(session, self.run.id))
-        target, intrinsics = self._settings.target, self._settings.intrinsics
-        points = target.object_points
-        views = [
-            View(points[one.detection.corner_ids], one.detection.image_points) for one in source.detections
-        ]
-        try:
-            result = calibrate_intrinsics(
-                views, intrinsics.image_size, intrinsics.lens, intrinsics, source.revision.fixed
-            )
-        except (TooFewViews, DegenerateViews):
-            return None
-        return view_accuracy(result.sd)
+            return estimate_so_far(session, self.run.id, self.run.revision)
 
     def _show_state(self) -> StateView:
-        return view_state(self.run.id, self._state, self._settings, self._accuracy)
+        return view_state(self.run.id, self._state, self._settings, self._estimate)
 
 
 def open_session(plant: Plant, station: str, wish: Wish, who: str) -> GuidedSession:
@@ -342,4 +351,5 @@ def _settings(run: GuidedRun) -> GuidanceSettings:
     default = default_tolerances(intrinsics.image_size)
     limit_px = run.revision.limits.match_share * intrinsics.image_size[0]
     tolerances = replace(default, corner_px=min(default.corner_px, TOLERANCE_OF_LIMIT * limit_px))
-    return GuidanceSettings(intrinsics, run.revision.target, tolerances)
+    target, most_added = run.revision.target, run.revision.extra_poses
+    return GuidanceSettings(intrinsics, target, tolerances, most_added=most_added)

@@ -14,7 +14,7 @@ from service.core.errors import BadRequest, PoseUndetermined, WrongImageSize
 from service.core.guidance.guided_target import check_guided
 from service.core.guidance.observation import Observation
 from service.core.guidance.problems import FrameMoved
-from service.core.guidance.session import GuidanceSettings
+from service.core.guidance.session_state import GuidanceSettings
 from service.core.vision.camera import project
 from service.core.vision.live_corners import LiveWorkspace
 from service.core.vision.live_detection import LiveDetection, detect_live

@@ -4,7 +4,7 @@ from service.core.errors import ServiceError
 from service.core.guidance.auto_capture import Obstacle
 from service.core.guidance.hints import Hint
 from service.core.guidance.problems import PictureUnfit, PoseNotMatched
-from service.core.guidance.session import SessionState
+from service.core.guidance.session_state import SessionState
 from service.core.guidance.session_view import KIND_HINTS, OBSTACLE_HINTS
 from service.core.vision.live_detection import BoardKind
 

@@ -12,6 +12,7 @@ from sqlalchemy import func, select
 from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, PoseSetNotPublished
+from service.core.guidance.actions import AddedPose
 from service.core.guidance.guided_target import check_guided
 from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose, RunState, check_serial
@@ -23,6 +24,7 @@ from service.usecases.frame_address import HELD, origin_of
 from service.usecases.guide_next_pose import read_postponed
 from service.usecases.observation import pose_from_json
 from service.usecases.run_filter import RunFilter
+from service.usecases.run_poses import read_added, view_added
 from service.usecases.runs import Order, get_run, open_run
 from service.usecases.sku_document import Revision, SkuDocument
 from service.usecases.stations import get_station
@@ -47,9 +49,9 @@ class Wish:
 class GuidedRun:
     """A run as guidance needs it.
 
-    captured: pose indices that have a capture, in the order they were taken. postponed: those that come after
-    all others, in that order. promised: sd by parameter that
-    the pose set was planned to reach, None for an imported one. is_retired: its revision was replaced since.
+    poses: of its set; added: poses beyond it. captured: pose indices that have a capture, in the order they
+    were taken. postponed: those that come after all others, in that order. promised: sd by parameter that the
+    pose set was planned to reach, None for an imported one. is_retired: its revision was replaced since.
     """
 
     id: UUID
@@ -61,6 +63,7 @@ class GuidedRun:
     poses: tuple[Pose, ...]
     captured: tuple[int, ...]
     postponed: tuple[int, ...]
+    added: tuple[AddedPose, ...]
     promised: Mapping[str, float] | None
     is_retired: bool
 
@@ -156,6 +159,7 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
         poses=tuple(pose_from_json(pose) for pose in pose_set.poses),
         captured=tuple(index for index in session.scalars(query) if index is not None),
         postponed=read_postponed(session, run_id),
+        added=tuple(map(view_added, read_added(session, run_id))),
         promised=pose_set.prediction.get("sd"),
         is_retired=revision.state is Publication.RETIRED,
     )

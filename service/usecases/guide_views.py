@@ -11,14 +11,16 @@ from uuid import UUID
 import numpy as np
 
 from service.core.errors import ServiceError
+from service.core.guidance.actions import AddedFor
 from service.core.guidance.hints import ShownHint
-from service.core.guidance.session import GuidanceSettings, SessionState
+from service.core.guidance.session_state import GuidanceSettings, SessionState
 from service.core.guidance.session_view import view
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.storage.models import MeasurementRow
+from service.usecases.guide_estimate import Estimate
 from service.usecases.guide_runs import GuidedRun
 from service.usecases.observation import outer_corners
 from service.usecases.results import ResultView
@@ -39,11 +41,13 @@ class AnglesView:
 
 @dataclass(frozen=True)
 class WantedPoseView:
-    """One pose of the run in the nominal camera's image."""
+    """One pose of the run in the nominal camera's image; added_for: why, if it is not of the set."""
 
     pose_index: int
     outline: Points
     angles: AnglesView
+    added_for: AddedFor | None = None
+    replaces: int | None = None
 
 
 @dataclass(frozen=True)
@@ -71,8 +75,10 @@ class GuidedRunView:
     captured: list[int]
     pose_index: int | None
     automatic: bool
+    total: int
     promised: AccuracyView | None
     accuracy: AccuracyView | None
+    estimate: Estimate | None
 
 
 @dataclass(frozen=True)
@@ -87,6 +93,7 @@ class AcceptedView:
     match_error_px: float | None
     edge_width_px: float | None
     accuracy: AccuracyView | None
+    estimate: Estimate | None
 
 
 @dataclass(frozen=True)
@@ -191,16 +198,19 @@ Told = (
 
 
 def view_run(
-    run: GuidedRun, state: SessionState, settings: GuidanceSettings, accuracy: AccuracyView | None
+    run: GuidedRun, state: SessionState, settings: GuidanceSettings, estimate: Estimate | None
 ) -> GuidedRunView:
     """Return the run as a whole."""
+    added = [None] * len(run.poses) + list(state.added)
     wanted = [
         WantedPoseView(
             index,
             _points(outer_corners(settings.intrinsics, settings.target, pose)),
             view_angles(pose, settings.target),
+            None if more is None else more.reason,
+            None if more is None else more.replaces,
         )
-        for index, pose in enumerate(run.poses)
+        for index, (pose, more) in enumerate(zip(state.expected, added, strict=True))
     ]
     return GuidedRunView(
         run_id=run.id,
@@ -214,13 +224,15 @@ def view_run(
         captured=sorted(state.captured),
         pose_index=state.current,
         automatic=state.automatic,
+        total=state.total,
         promised=view_accuracy(run.promised),
-        accuracy=accuracy,
+        accuracy=view_accuracy(None if estimate is None else estimate.sd),
+        estimate=estimate,
     )
 
 
 def view_state(
-    run_id: UUID, state: SessionState, settings: GuidanceSettings, accuracy: AccuracyView | None
+    run_id: UUID, state: SessionState, settings: GuidanceSettings, estimate: Estimate | None
 ) -> StateView:
     """Return what the newest frame shows; the session must have seen one."""
     shown, last, target = view(state, settings), state.last, settings.target
@@ -248,7 +260,7 @@ def view_state(
         total=shown.total,
         automatic=shown.automatic,
         is_capturing=shown.is_storing,
-        accuracy=accuracy,
+        accuracy=view_accuracy(None if estimate is None else estimate.sd),
         instead_of=shown.instead_of,
         tried_s=round(shown.tried_s, 1),
         absent_s=round(shown.absent_s, 1),

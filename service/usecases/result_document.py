@@ -13,16 +13,22 @@ import numpy as np
 import scipy
 
 import service
+from service.core.quality.reasons import Reason
 from service.core.quality.verdict import Judged
 from service.core.vision.calibration import StartReport
-from service.core.vision.transforms import Array
+from service.usecases.extrinsics_document import extrinsics_document, view_document
 from service.usecases.observation import number_or_null, pose_to_json
 
 JsonObject = dict[str, Any]
 
 
-def result_document(judged: Judged, capture_ids: Mapping[str, UUID]) -> JsonObject:
-    """Return all of a calibration but its gates; `capture_ids` are by the names of the views."""
+def result_document(
+    judged: Judged, capture_ids: Mapping[str, UUID], fixture: JsonObject | None = None
+) -> JsonObject:
+    """Return all of a calibration but its gates; `capture_ids` are by the names of the views.
+
+    fixture: the place of the fixed target, as it is stored.
+    """
     result = judged.result
     return {
         "lens": result.intrinsics.lens,
@@ -41,12 +47,14 @@ def result_document(judged: Judged, capture_ids: Mapping[str, UUID]) -> JsonObje
         },
         "score": None if judged.score is None else number_or_null(judged.score),
         "views": [
-            _view(named.name, str(capture_ids[named.name]), residuals, pose_to_json(pose))
+            view_document(named.name, str(capture_ids[named.name]), residuals, pose_to_json(pose))
             for named, residuals, pose in zip(judged.views, result.residuals, result.poses, strict=True)
         ],
         "starts": [_start(start) for start in result.starts],
         "agreement_px": number_or_null(result.agreement_px),
         "converged": result.converged,
+        "early_finish": _early_finish(judged),
+        "extrinsics": extrinsics_document(judged, capture_ids, fixture),
         "verdict": judged.verdict.value,
     }
 
@@ -62,16 +70,10 @@ def versions() -> dict[str, str]:
     }
 
 
-def _view(name: str, capture_id: str, residuals: Array, pose: JsonObject) -> JsonObject:
-    lengths = np.linalg.norm(residuals, axis=1)
-    return {
-        "capture_id": capture_id,
-        "name": name,
-        "rms_px": float(np.sqrt(np.mean(lengths**2))),
-        "max_px": float(lengths.max()),
-        "pose": pose,
-        "residuals": residuals.tolist(),
-    }
+def _early_finish(judged: Judged) -> JsonObject | None:
+    """Return how many poses proved the required accuracy; None for a run with all its poses."""
+    early = (one for one in judged.measurements if one.reason is Reason.EARLY_FINISH)
+    return next((dict(one.facts) for one in early), None)
 
 
 def _start(start: StartReport) -> JsonObject:

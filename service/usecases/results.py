@@ -32,6 +32,8 @@ class ResultView:
     views: list[dict[str, Any]]
     starts: list[dict[str, Any]]
     agreement_px: float | None
+    early_finish: dict[str, Any] | None
+    extrinsics: dict[str, Any] | None
     versions: dict[str, str]
     created_at: datetime
 
@@ -80,6 +82,8 @@ def _view(session: Session, row: CalibrationRow) -> ResultView:
         views=document["views"],
         starts=document["starts"],
         agreement_px=document["agreement_px"],
+        early_finish=document.get("early_finish"),
+        extrinsics=document.get("extrinsics"),
         versions=row.versions,
         created_at=row.created_at,
     )

@@ -15,6 +15,7 @@ from service.storage.models import (
     CalibrationRow,
     CaptureRow,
     PoseSetRow,
+    RunPoseRow,
     RunRow,
     SkuRevisionRow,
     SkuRow,
@@ -26,6 +27,7 @@ from service.usecases.capture_views import CaptureView, view_captures
 from service.usecases.paging import PageRequest, Part, page_of
 from service.usecases.results import ResultView, find_result
 from service.usecases.run_filter import RunFilter
+from service.usecases.run_poses import read_added
 from service.usecases.skus import SkuReference, get_published_revision
 from service.usecases.stations import get_station
 
@@ -59,6 +61,7 @@ class RunView:
     finished_at: datetime | None
     pose_set_id: UUID | None
     capture_list: Sequence[CaptureView] = field(default=())
+    added_poses: Sequence[RunPoseRow] = field(default=())
     result: ResultView | None = None
 
 
@@ -111,7 +114,8 @@ def read_run(session: Session, run_id: UUID) -> RunView:
         select(CaptureRow).where(CaptureRow.run_id == run_id).order_by(CaptureRow.number)
     )
     views = view_captures(captures)
-    return view_runs(session, [row], captures=views, result=find_result(session, run_id))[0]
+    added, result = read_added(session, run_id), find_result(session, run_id)
+    return view_runs(session, [row], captures=views, added=added, result=result)[0]
 
 
 def list_runs(session: Session, page: PageRequest, wanted: RunFilter) -> Part[RunView]:
@@ -158,6 +162,7 @@ def view_runs(session: Session, rows: Sequence[RunRow], **details: Any) -> list[
             finished_at=row.finished_at,
             pose_set_id=row.pose_set_id,
             capture_list=details.get("captures", ()),
+            added_poses=details.get("added", ()),
             result=details.get("result"),
         )
         for row in rows

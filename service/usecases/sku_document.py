@@ -7,6 +7,7 @@ Here: its fields, their checks and the way into the core's values. Not here: rev
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
+import numpy as np
 from pydantic import (
     AfterValidator,
     BaseModel,
@@ -21,10 +22,13 @@ from service.core.errors import ServiceError
 from service.core.planning.bootstrap import nominal_of_data_sheet
 from service.core.planning.fixture import Box
 from service.core.planning.pose_space import PoseSpace
+from service.core.quality.early_finish import EarlyFinish
+from service.core.quality.gates_cross_check import FEWEST_VIEWS
 from service.core.quality.limits import LIMIT_NAMES, Limits, limits_for
 from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.target import Target, parse_target
 from service.core.vision.tolerance import Tolerance
+from service.core.vision.transforms import Pose
 from service.core.vision.uncertainty import Region
 from service.usecases.block_layout import BlockLayout
 from service.usecases.text import Code, Label
@@ -59,6 +63,7 @@ def check_lens(name: str) -> str:
 
 LensName = Annotated[str, AfterValidator(check_lens), Field(json_schema_extra={"enum": list(LENSES)})]
 Coordinate = Annotated[float, Field(ge=-100, le=100)]
+Angle = Annotated[float, Field(ge=-7, le=7)]  # rad; a rotation vector needs no more than π
 Corner = Annotated[tuple[Coordinate, Coordinate, Coordinate], Field(strict=False)]
 DegreeRange = Annotated[tuple[Degrees, Degrees], AfterValidator(check_ordered)]
 MetreRange = Annotated[tuple[Metres, Metres], AfterValidator(check_ordered)]
@@ -127,6 +132,17 @@ class ToleranceDocument(Document):
         return Tolerance(**self.model_dump(exclude_none=True))
 
 
+class PoseDocument(Document):
+    """A pose: rotation vector, rad, and translation, m."""
+
+    rvec: Annotated[tuple[Angle, Angle, Angle], Field(strict=False)]
+    tvec: Corner
+
+    def to_pose(self) -> Pose:
+        """Return the core's pose."""
+        return Pose(np.array(self.rvec, dtype=np.float64), np.array(self.tvec, dtype=np.float64))
+
+
 class RegionDocument(Document):
     """A rectangle of the image, px."""
 
@@ -148,7 +164,10 @@ class RegionDocument(Document):
 
 @dataclass(frozen=True)
 class Revision:
-    """One revision of a SKU as the core's values; zones are None where the default by image size holds."""
+    """One revision of a SKU as the core's values; zones are None where the default by image size holds.
+
+    early_finish: None where a run must take all its poses. extra_poses: as in the document.
+    """
 
     code: str
     name: str
@@ -163,6 +182,9 @@ class Revision:
     working_zone: Region | None
     valid_region: Region | None
     limits: Limits
+    early_finish: EarlyFinish | None
+    extra_poses: int
+    mounting: Pose | None
 
 
 EXAMPLE: JsonValue = {
@@ -210,6 +232,16 @@ class SkuDocument(Document):
         default=None,
         description="Mean mapping error that a set must promise; null: where the gate still gives PASS.",
     )
+    early_finish_poses: Annotated[int, Field(ge=FEWEST_VIEWS, le=100)] | None = Field(
+        default=None,
+        description="From so many poses on a run may end before the set is complete, once the required "
+        "mapping error is proven and every gate passes; null: never. With fewer there is no cross-check.",
+    )
+    extra_poses: Annotated[int, Field(ge=0, le=10)] = Field(
+        default=2,
+        description="So many poses beyond the set a guided run may ask for where its captures lack accuracy "
+        "or one of them is weak, and so many in place of poses that are out of reach.",
+    )
     fixed: tuple[str, ...] = Field(
         default=(), strict=False, description="Parameters that stay at their nominal value."
     )
@@ -221,6 +253,9 @@ class SkuDocument(Document):
     )
     block_layout: BlockLayout | None = Field(
         default=None, description="Layout of the binary block for the camera's memory (docs/exports.md)."
+    )
+    mounting: PoseDocument | None = Field(
+        default=None, description="Nominal `T_vehicle_cam`: where the camera belongs in the vehicle."
     )
     limits: dict[str, Any] = Field(
         default_factory=dict,
@@ -267,7 +302,8 @@ class SkuDocument(Document):
     def to_revision(self) -> Revision:
         """Return the core's values."""
         limits = limits_for(self.image_size, self.limits)
-        passing_px = limits.zone_mapping_px * limits.share("zone_mapping_px")
+        required_px = self.required_mapping_px or limits.zone_mapping_px * limits.share("zone_mapping_px")
+        least = self.early_finish_poses
         return Revision(
             code=self.code,
             name=self.name,
@@ -277,11 +313,14 @@ class SkuDocument(Document):
             pose_space=self.pose_space.to_pose_space(),
             corner_noise_px=self.corner_noise_px,
             tolerance=self.tolerance.to_tolerance(),
-            required_mapping_px=self.required_mapping_px or passing_px,
+            required_mapping_px=required_px,
             fixed=self.fixed,
             working_zone=None if self.working_zone is None else self.working_zone.to_region(),
             valid_region=None if self.valid_region is None else self.valid_region.to_region(),
             limits=limits,
+            early_finish=None if least is None else EarlyFinish(least, required_px),
+            extra_poses=self.extra_poses,
+            mounting=None if self.mounting is None else self.mounting.to_pose(),
         )
 
 

@@ -11,6 +11,7 @@ from service.core.errors import NotFound
 from service.storage.models import StationRow, TargetRow
 from service.storage.words import FrameOrigin, Language
 from service.usecases.audit import record
+from service.usecases.fixture_document import FixtureDocument
 from service.usecases.frame_address import check_source, mask_source
 from service.usecases.paging import PageRequest, Part, page_of
 
@@ -23,6 +24,7 @@ def create_station(
     *,
     source: str = FrameOrigin.BROWSER.value,
     language: Language | None = None,
+    fixture: FixtureDocument | None = None,
     files: bool = False,
     who: str,
     now: datetime,
@@ -35,7 +37,13 @@ def create_station(
     if target_id is not None and session.get(TargetRow, target_id) is None:
         raise NotFound("There is no target of this id. Register the board first.", target_id=str(target_id))
     row = StationRow(
-        code=code, name=name, target_id=target_id, source=source, language=language, created_at=now
+        code=code,
+        name=name,
+        target_id=target_id,
+        source=source,
+        language=language,
+        fixture=None if fixture is None else fixture.to_json(),
+        created_at=now,
     )
     session.add(row)
     session.flush()
@@ -49,13 +57,15 @@ def change_station(
     *,
     source: str | None = None,
     language: Language | Literal["keep"] | None = "keep",
+    fixture: FixtureDocument | Literal["keep"] | None = "keep",
     files: bool,
     who: str,
     now: datetime,
 ) -> StationRow:
-    """Give a station another source (None: keep it) or language, from its next kiosk on.
+    """Give a station another source (None: keep it) or language, from its next kiosk on, or fixture.
 
-    language: None leaves it to the kiosk's browser. Raises NotFound, SourceRefused.
+    language: None leaves it to the kiosk's browser. fixture: where its fixed target stands; None: it has
+    none. Raises NotFound, SourceRefused.
     """
     row = get_station(session, code)
     if source is not None:
@@ -64,6 +74,10 @@ def change_station(
     if language != "keep":
         row.language = language
         record(session, now, who, "station.language", f"station:{code}", language=language)
+    if fixture != "keep":
+        row.fixture = None if fixture is None else fixture.to_json()
+        told = None if fixture is None else fixture.model_dump_json()
+        record(session, now, who, "station.fixture", f"station:{code}", fixture=told)
     return row
 
 

@@ -19,6 +19,8 @@ ELSEWHERE = {
     "conflict",
     "cursor-invalid",
     "database-outdated",
+    "fixture-changed",
+    "fixture-missing",
     "folder-unusable",
     "format-cannot-say",
     "idempotency-key-reused",

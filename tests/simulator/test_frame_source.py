@@ -10,7 +10,9 @@ from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import Hint, ShownHint
 from service.core.guidance.observation import Observation
 from service.core.guidance.problems import FrameForgotten
-from service.core.guidance.session import GuidanceSettings, start_session, step
+from service.core.guidance.session import step
+from service.core.guidance.session_poses import start_session
+from service.core.guidance.session_state import GuidanceSettings
 from service.core.guidance.session_view import view
 from service.core.vision.detection import detect_target
 from service.core.vision.live_detection import detect_live

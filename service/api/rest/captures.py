@@ -11,6 +11,7 @@ from service.api.auth import Operator, Viewer
 from service.api.dependencies import Db, Now, Of, ReadDb
 from service.api.shapes import Answer, Id
 from service.api.uploads import UPLOAD_BODY, Upload
+from service.storage.words import CaptureRole
 from service.usecases import capture_views, captures
 from service.usecases.observation import Picture
 
@@ -28,6 +29,7 @@ class Capture(Answer):
     id: UUID
     run_id: UUID
     number: int = Field(description="Order within the run, from 1.")
+    role: CaptureRole = Field(description="`extrinsics`: a picture of the station's fixed target.")
     pose_index: int | None
     file_name: str
     sha256: str
@@ -88,6 +90,10 @@ def create_capture(
     now: Now,
     response: Response,
     pose_index: PoseIndex = None,
+    role: Annotated[
+        CaptureRole,
+        Query(description="`extrinsics`: the image shows the fixed target of the run's station."),
+    ] = CaptureRole.INTRINSICS,
 ) -> CaptureDetail:
     """Accept an image: it must show the SKU's whole target at the SKU's image size.
 
@@ -97,7 +103,7 @@ def create_capture(
     """
     picture = Picture(upload.content, upload.file_name, of.max_image_pixels)
     accepted = captures.add_capture(
-        of.database, of.blobs, run_id, picture, pose_index=pose_index, who=caller.name, now=now
+        of.database, of.blobs, run_id, picture, pose_index=pose_index, role=role, who=caller.name, now=now
     )
     response.status_code = 201 if accepted.is_new else 200
     return CaptureDetail.model_validate(accepted.view)

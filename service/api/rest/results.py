@@ -12,6 +12,7 @@ from service.api.dependencies import ReadDb
 from service.api.shapes import Answer, Id
 from service.core.quality.gates import Verdict
 from service.usecases import result_maps, results
+from service.usecases.fixture_document import FixtureDocument
 
 router = APIRouter(tags=["Results"])
 
@@ -71,6 +72,56 @@ class Mapping(Answer):
     valid_worst_px: float | None
 
 
+class EarlyFinish(Answer):
+    """How a run ended before its pose set was complete; 0.95 is the confidence of `proven_px`."""
+
+    taken: int = Field(description="Poses that were taken.")
+    not_needed: int = Field(description="Prescribed poses that were not.")
+    proven_px: float = Field(description="Mean mapping error over the working zone that is not exceeded.")
+    required_px: float = Field(description="The SKU's required_mapping_px.")
+
+
+class WorstSd(Answer):
+    """Standard deviations about and along the axes where they are largest."""
+
+    rotation_sd_mdeg: float
+    translation_sd_mm: float
+
+
+class SdParts(Answer):
+    """What each source alone would leave."""
+
+    noise: WorstSd
+    intrinsics: WorstSd
+    fixture: WorstSd
+
+
+class CameraPose(Answer):
+    """A pose: rotation vector, rad, and translation, m."""
+
+    rvec: tuple[float, float, float]
+    tvec: tuple[float, float, float]
+
+
+class Extrinsics(Answer):
+    """Where the camera is in the vehicle, from pictures of the station's fixed target."""
+
+    pose: CameraPose = Field(description="`T_vehicle_cam`: maps the camera frame into the vehicle frame.")
+    covariance: list[list[float]] = Field(
+        description="6x6: of a rotation exp(φ) from the left, φ in the vehicle frame, rad; then of the "
+        "position, m."
+    )
+    rotation_sd_mdeg: tuple[float, float, float] = Field(description="About the vehicle frame's axes.")
+    translation_sd_mm: tuple[float, float, float] = Field(description="Along the vehicle frame's axes.")
+    parts: SdParts
+    rms_px: float
+    sigma_px: float
+    ambiguity: float = Field(description="Rms over that of the target's other possible tilt; 0: none.")
+    image_agreement_px: float | None = Field(description="Null for one picture.")
+    fixture: FixtureDocument = Field(description="As it was when the pictures were taken.")
+    views: list[ViewResult]
+
+
 EXAMPLE: JsonValue = {
     "id": "019a2b3c-4d5e-7f60-8a1b-2c3d4e5f6071",
     "run_id": "019a2b3c-11aa-7bb2-9cc3-44dd55ee66ff",
@@ -101,6 +152,8 @@ EXAMPLE: JsonValue = {
     "views": [],
     "starts": [{"name": "nominal", "rms_px": 0.117, "iterations": 6, "converged": True}],
     "agreement_px": 1e-9,
+    "early_finish": None,
+    "extrinsics": None,
     "versions": {"service": "0.1.0", "opencv": "5.0.0"},
     "created_at": "2026-11-22T07:32:33.574474Z",
 }
@@ -128,6 +181,8 @@ class Result(Answer):
     agreement_px: float | None = Field(
         description="Largest difference between the starts; null: one of them failed."
     )
+    early_finish: EarlyFinish | None = Field(description="Null where every prescribed pose was taken.")
+    extrinsics: Extrinsics | None = Field(description="Null without pictures of a fixed target.")
     versions: dict[str, str]
     created_at: datetime
 

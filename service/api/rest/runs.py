@@ -12,8 +12,9 @@ from service.api.auth import Mes, Operator, Viewer
 from service.api.dependencies import Db, Now, Of, PageOf, ReadDb
 from service.api.idempotency import Once
 from service.api.rest.captures import Capture
-from service.api.rest.results import Result
+from service.api.rest.results import BoardPose, Result
 from service.api.shapes import Answer, Id, Page, Request
+from service.core.guidance.actions import AddedFor
 from service.core.quality.gates import Verdict
 from service.core.run import Outcome, Purpose, RunState
 from service.usecases import finish, runs, shared_pictures
@@ -87,6 +88,19 @@ class RunSummary(Answer):
     finished_at: datetime | None
 
 
+class AddedPose(Answer):
+    """A pose that the run asked for beyond its pose set."""
+
+    pose_index: int = Field(description="Follows those of the set.")
+    pose: BoardPose = Field(description="`T_cam_board`.")
+    reason: AddedFor = Field(
+        description="`accuracy`: the captures did not determine the camera well enough. `weak-capture`: one "
+        "of them spoilt the result. `out-of-reach`: a pose was not reached."
+    )
+    replaces: int | None = Field(description="The pose that it stands in for.")
+    created_at: datetime
+
+
 class RunDetail(RunSummary):
     """A run with its images and, once finished, its result."""
 
@@ -94,6 +108,7 @@ class RunDetail(RunSummary):
 
     pose_set_id: UUID | None
     capture_list: list[Capture]
+    added_poses: list[AddedPose]
     result: Result | None
 
 

@@ -12,6 +12,7 @@ from service.api.dependencies import Db, Of, PageOf, ReadDb
 from service.api.shapes import Answer, Page, Request, ShownSource
 from service.storage.words import FrameOrigin, Language
 from service.usecases import stations
+from service.usecases.fixture_document import FixtureDocument
 from service.usecases.frame_address import MOST_CHARACTERS
 from service.usecases.text import Code, Label
 
@@ -36,6 +37,12 @@ Speaks = Annotated[
 ]
 
 
+Fixture = Annotated[
+    FixtureDocument | None,
+    Field(description="Where a target stands in the vehicle frame, for extrinsics; null: nowhere."),
+]
+
+
 class NewStation(Request):
     """A station to register."""
 
@@ -44,6 +51,7 @@ class NewStation(Request):
     target_id: UUID | None = Field(default=None, strict=False, description="Board that stands there.")
     source: Source = FrameOrigin.BROWSER.value
     language: Speaks = None
+    fixture: Fixture = None
 
     model_config = ConfigDict(
         json_schema_extra={"examples": [{"code": "line1-cal2", "name": "Line 1, calibration 2"}]}
@@ -55,6 +63,7 @@ class StationChange(Request):
 
     source: Source | None = None
     language: Speaks = None
+    fixture: Fixture = None
 
     model_config = ConfigDict(
         json_schema_extra={
@@ -64,8 +73,8 @@ class StationChange(Request):
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:
-        if self.source is None and "language" not in self.model_fields_set:
-            raise ValueError("Give the station's `source` or its `language`.")
+        if self.source is None and not self.model_fields_set & {"language", "fixture"}:
+            raise ValueError("Give the station's `source`, its `language` or its `fixture`.")
         return self
 
 
@@ -78,6 +87,7 @@ class Station(Answer):
     target_id: UUID | None
     source: ShownSource
     language: Language | None
+    fixture: FixtureDocument | None
     created_at: datetime
 
 
@@ -91,6 +101,7 @@ def create_station(body: NewStation, caller: Engineer, db: Db, of: Of) -> Statio
         body.target_id,
         source=body.source,
         language=body.language,
+        fixture=body.fixture,
         files=of.has_frames_dir,
         who=caller.name,
         now=of.clock.now(),
@@ -98,14 +109,18 @@ def create_station(body: NewStation, caller: Engineer, db: Db, of: Of) -> Statio
     return Station.model_validate(row)
 
 
-@router.patch("/{code}", summary="Change a station's source or language")
+@router.patch("/{code}", summary="Change a station's source, language or fixture")
 def change_station(code: Code, body: StationChange, caller: Engineer, db: Db, of: Of) -> Station:
-    """Give a station another source or language, from the next time that its kiosk connects."""
+    """Give a station another source or language, from the next time that its kiosk connects, or fixture.
+
+    A fixture holds for the pictures that are taken from now on; results keep the one they were made with.
+    """
     row = stations.change_station(
         db,
         code,
         source=body.source,
         language=body.language if "language" in body.model_fields_set else "keep",
+        fixture=body.fixture if "fixture" in body.model_fields_set else "keep",
         files=of.has_frames_dir,
         who=caller.name,
         now=of.clock.now(),

@@ -12,7 +12,8 @@ from typing import Any, Literal
 
 from starlette.websockets import WebSocket
 
-from service.api.ws.protocol import State, Told
+from service.api.ws.protocol import State
+from service.api.ws.run_parts import Told
 from service.usecases.access import Caller
 
 IN_FLIGHT = 2

@@ -9,9 +9,9 @@ from service.api.ws.protocol import (
     RunClosed,
     RunVerdict,
     State,
-    Told,
     WantFullFrame,
 )
+from service.api.ws.run_parts import Told
 from service.core.errors import ServiceError
 from service.usecases import guide_views as views
 

@@ -9,10 +9,11 @@ Not here: the socket itself (`guidance`), and what the values mean (`service.cor
 from typing import Annotated, Any, Literal
 from uuid import UUID
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
-from service.api.shapes import Answer, Request
+from service.api.shapes import Request
 from service.api.ws.board_moves import MoveBoard
+from service.api.ws.run_parts import Accuracy, BoardSize, Estimate, Point, PoseAngles, Share, Told, WantedPose
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
 from service.storage.words import FrameOrigin, Language
@@ -20,10 +21,8 @@ from service.usecases.text import Code
 
 PROTOCOL = 1
 
-Point = tuple[float, float]
 Sequence = Annotated[int, Field(ge=0, le=2**53, description="Number of a frame, rising within a source.")]
 PoseIndex = Annotated[int, Field(ge=0, le=10_000, description="Place in the pose set, from 0.")]
-Share = Annotated[float, Field(ge=0, le=1)]
 Serial = Annotated[str, Field(max_length=200, description="As scanned; checked by the server.")]
 HintCode = Literal[
     "move-left",
@@ -145,47 +144,8 @@ class FrameHeader(Request):
 # --- from the server ---
 
 
-class Told(Answer):
-    """A message or a part of one; what is always sent is not marked as optional in the schema."""
-
-    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
-
-
-class PoseAngles(Told):
-    """How a board stands to the camera, deg, and how far its centre is."""
-
-    tilt_deg: float = Field(description="About the image's x axis.")
-    turn_deg: float = Field(description="About the image's y axis.")
-    roll_deg: float = Field(description="In the image, clockwise.")
-    distance_m: float
-
-
-class WantedPose(Told):
-    """One pose of the run: where its board appears in the nominal camera's image."""
-
-    pose_index: int
-    outline: list[Point] = Field(description="The four outer corners, in order round the board.")
-    angles: PoseAngles
-
-
-class Accuracy(Told):
-    """Standard deviations, px, of the camera as the captures so far determine it."""
-
-    fx_px: float
-    fy_px: float
-    cx_px: float
-    cy_px: float
-
-
-class BoardSize(Told):
-    """Inner corners of the board; corners come row by row, `columns` in a row."""
-
-    columns: int
-    rows: int
-
-
 class Run(Told):
-    """The run that the station works on: sent when it is opened or resumed, and after each undo or retake."""
+    """The run that the station works on: when it is opened or resumed, after an undo, with a pose more."""
 
     type: Literal["run"] = "run"
     run_id: UUID
@@ -200,7 +160,9 @@ class Run(Told):
     pose_index: int | None = Field(description="The pose asked for now; null: all are captured.")
     automatic: bool
     promised: Accuracy | None = Field(description="What the whole pose set was planned to reach.")
+    total: int = Field(description="How many captures the run is to have; without poses that were replaced.")
     accuracy: Accuracy | None = Field(description="So far; null before the captures determine the camera.")
+    estimate: Estimate | None = Field(description="The same with all parameters and the mapping error.")
 
 
 class Welcome(Told):
@@ -231,6 +193,7 @@ class CaptureAccepted(Told):
     match_error_px: float | None
     edge_width_px: float | None
     accuracy: Accuracy | None
+    estimate: Estimate | None
 
 
 class CaptureRefused(Told):
@@ -365,7 +328,7 @@ class State(Told):
     accuracy: Accuracy | None
     instead_of: int | None = Field(
         default=None,
-        description="The pose that was not reached and comes again last; `pose_index` comes first.",
+        description="The pose that `pose_index` comes before, as it was not reached, or stands in for.",
     )
     tried_s: float = Field(
         default=0.0, description="How long this pose is tried with a board in the picture."

@@ -1,8 +1,27 @@
 """What may happen to a guidance session, and what a session asks of the world in return. Plain values."""
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from service.core.guidance.observation import Observation
+from service.core.vision.transforms import Pose
+
+
+class AddedFor(StrEnum):
+    """Why a pose that is not of the set is asked for."""
+
+    ACCURACY = "accuracy"
+    WEAK_CAPTURE = "weak-capture"
+    OUT_OF_REACH = "out-of-reach"
+
+
+@dataclass(frozen=True)
+class AddedPose:
+    """A pose beyond the set; replaces: the pose that it stands in for, which is not asked for any more."""
+
+    pose: Pose
+    reason: AddedFor
+    replaces: int | None = None
 
 
 @dataclass(frozen=True)
@@ -61,7 +80,44 @@ class TakeAnother:
     pose_index: int
 
 
-Action = Frame | ManualCapture | CaptureAccepted | CaptureRefused | Undo | Retake | SetAutomatic | TakeAnother
+@dataclass(frozen=True)
+class CapturesJudged:
+    """What the captures so far are worth, told after each change of them.
+
+    is_enough: the run may end though poses are open. lacks: why the captures of all poses would not do, where
+    one pose more may mend it; weak: the pose whose capture spoils the result.
+    """
+
+    is_enough: bool = False
+    lacks: AddedFor | None = None
+    weak: int | None = None
+
+
+@dataclass(frozen=True)
+class AddPose:
+    """Ask for a pose beyond the set now."""
+
+    added: AddedPose
+
+
+@dataclass(frozen=True)
+class NoPoseToAdd:
+    """There is no pose that could be added: the run ends with what it has."""
+
+
+Action = (
+    Frame
+    | ManualCapture
+    | CaptureAccepted
+    | CaptureRefused
+    | Undo
+    | Retake
+    | SetAutomatic
+    | TakeAnother
+    | CapturesJudged
+    | AddPose
+    | NoPoseToAdd
+)
 
 
 @dataclass(frozen=True)
@@ -87,7 +143,7 @@ class DiscardCapture:
 
 @dataclass(frozen=True)
 class RunComplete:
-    """Every pose has its capture."""
+    """Every pose has its capture, or what there is proves enough: the run can be finished."""
 
 
 @dataclass(frozen=True)
@@ -98,4 +154,17 @@ class PoseNotReached:
     tried_s: float
 
 
-Effect = CaptureFrame | DiscardCapture | RunComplete | PoseNotReached
+@dataclass(frozen=True)
+class PoseWanted:
+    """A pose beyond the set is wanted; answer with AddPose or, where there is none, with NoPoseToAdd.
+
+    replaces: the pose that it would stand in for. tried_s: how long that one was tried, where it is out of
+    reach.
+    """
+
+    reason: AddedFor
+    replaces: int | None = None
+    tried_s: float = 0.0
+
+
+Effect = CaptureFrame | DiscardCapture | RunComplete | PoseNotReached | PoseWanted

@@ -1,118 +1,38 @@
 """The guidance of one run as a reducer: (state, action) -> (state, effects). No clock, socket or image.
 
 A session is resumed from what is stored: the expected poses and which of them are captured
-(`start_session`). Not here: what the state looks like to an operator (`session_view`).
+(`session_poses`). Poses beyond the set are asked for where a pose stays out of reach and where the captures
+of all poses would not do. Not here: what the state looks like to an operator (`session_view`).
 """
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Final
 
 from service.core.guidance.actions import (
     Action,
+    AddPose,
     CaptureAccepted,
     CaptureFrame,
     CaptureRefused,
+    CapturesJudged,
     DiscardCapture,
-    Effect,
     Frame,
     ManualCapture,
-    PoseNotReached,
+    NoPoseToAdd,
     Retake,
-    RunComplete,
     SetAutomatic,
     TakeAnother,
     Undo,
 )
-from service.core.guidance.auto_capture import (
-    CaptureLimits,
-    Dwell,
-    Obstacle,
-    dwell_share,
-    extend_dwell,
-    find_obstacles,
-)
-from service.core.guidance.comparison import PoseDifference, Tolerances, compare_pose, is_match
-from service.core.guidance.hints import Hint, choose_hints
+from service.core.guidance.auto_capture import Obstacle, dwell_share, extend_dwell, find_obstacles
+from service.core.guidance.comparison import compare_pose, is_match
+from service.core.guidance.hints import choose_hints
 from service.core.guidance.observation import Observation
-from service.core.vision.camera import Intrinsics
-from service.core.vision.target import Target
-from service.core.vision.transforms import Pose
+from service.core.guidance.session_poses import add_pose, afresh, despair, give_up, next_pose, postpone, weigh
+from service.core.guidance.session_state import GuidanceSettings, SessionState, Step
 
 NOT_SEEN: Final = "not-seen"
 LONGEST_GAP_S: Final = 1.0  # between two frames; what is longer is no time of guidance
-
-Step = tuple["SessionState", tuple[Effect, ...]]
-
-
-@dataclass(frozen=True)
-class GuidanceSettings:
-    """What a session is judged by: the SKU's nominal camera and target, tolerances, limits of a capture.
-
-    patience_s: how long a pose is tried before another one is offered.
-    """
-
-    intrinsics: Intrinsics
-    target: Target
-    tolerances: Tolerances
-    limits: CaptureLimits = field(default_factory=CaptureLimits)
-    patience_s: float = 20.0
-
-
-@dataclass(frozen=True)
-class SessionState:
-    """Where a session stands.
-
-    captured: indices of the poses that have a capture; order: the same as they were taken. current: the pose
-    that is asked for, None when all are captured. pending: the pose whose capture is being stored. last: the
-    latest observation; difference, obstacles: what was made of it, nothing without a whole board or a pose to
-    compare with. moves: the movements that are shown. refused: why the latest capture was refused, until the
-    next one is asked for. postponed: open poses that come after all others. instead_of: the one that was
-    postponed for the current one. tried_s: how long the current pose has been asked for with a board, or a
-    part of one, in the picture; absent_s: for how long there has been none.
-    """
-
-    expected: tuple[Pose, ...]
-    captured: frozenset[int] = frozenset()
-    order: tuple[int, ...] = ()
-    current: int | None = 0
-    automatic: bool = True
-    pending: int | None = None
-    last: Observation | None = None
-    difference: PoseDifference | None = None
-    obstacles: tuple[Obstacle, ...] = ()
-    moves: tuple[Hint, ...] = ()
-    dwell: Dwell | None = None
-    refused: str | None = None
-    postponed: tuple[int, ...] = ()
-    instead_of: int | None = None
-    tried_s: float = 0.0
-    absent_s: float = 0.0
-
-    @property
-    def obstacle(self) -> Obstacle | None:
-        """What keeps the latest frame from being captured, the first thing to mend."""
-        return self.obstacles[0] if self.obstacles else None
-
-    @property
-    def open(self) -> tuple[int, ...]:
-        """The poses without a capture, the postponed ones last."""
-        rest = [i for i in range(len(self.expected)) if i not in self.captured and i not in self.postponed]
-        return (*rest, *(i for i in self.postponed if i not in self.captured))
-
-
-def start_session(
-    expected: Iterable[Pose],
-    captured: Iterable[int] = (),
-    automatic: bool = True,
-    postponed: Iterable[int] = (),
-) -> SessionState:
-    """Return the state of a run, new or resumed; captured: pose indices in the order they were taken."""
-    poses, order = tuple(expected), tuple(dict.fromkeys(captured))
-    done = frozenset(order)
-    later = tuple(i for i in postponed if i not in done)
-    fresh = SessionState(poses, done, order, None, automatic, postponed=later)
-    return replace(fresh, current=_next_pose(fresh, 0))
 
 
 def step(state: SessionState, action: Action, settings: GuidanceSettings) -> Step:
@@ -133,9 +53,26 @@ def step(state: SessionState, action: Action, settings: GuidanceSettings) -> Ste
             result = _take_back(state, pose_index)
         case SetAutomatic(automatic):
             result = replace(state, automatic=automatic, dwell=None), ()
-        case TakeAnother(pose_index):
-            result = _postpone(state, pose_index), ()
+        case TakeAnother() | CapturesJudged() | AddPose() | NoPoseToAdd():
+            result = _choose(state, action, settings)
     return result
+
+
+def _choose(
+    state: SessionState,
+    action: TakeAnother | CapturesJudged | AddPose | NoPoseToAdd,
+    settings: GuidanceSettings,
+) -> Step:
+    """Return the state after an action that says which pose is asked for, or that none is."""
+    match action:
+        case TakeAnother(pose_index):
+            return postpone(state, pose_index), ()
+        case CapturesJudged():
+            return weigh(state, action, settings)
+        case AddPose(added):
+            return add_pose(state, added), ()
+        case NoPoseToAdd():
+            return give_up(state)
 
 
 def _see(state: SessionState, now: Observation, settings: GuidanceSettings) -> Step:
@@ -144,7 +81,7 @@ def _see(state: SessionState, now: Observation, settings: GuidanceSettings) -> S
     if judged.pending is not None or judged.current is None:
         return judged, ()
     if judged.dwell is None:
-        return _despair(judged, judged.current, settings.patience_s)
+        return despair(judged, judged.current, settings)
     if dwell_share(judged.dwell, settings.limits) < 1.0 or not judged.automatic:
         return judged, ()
     return _ask(judged, judged.current, judged.dwell.sequence)
@@ -160,13 +97,6 @@ def _timed(state: SessionState, now: Observation) -> SessionState:
         tried_s=state.tried_s + passed_s if is_trying else state.tried_s,
         absent_s=state.absent_s + passed_s if now.kind == "absent" else 0.0,
     )
-
-
-def _despair(state: SessionState, pose_index: int, patience_s: float) -> Step:
-    """Say that a pose is not reached, once in a patience, where there is another one to take."""
-    if state.tried_s <= patience_s or len(state.open) < 2:
-        return state, ()
-    return replace(state, tried_s=0.0), (PoseNotReached(pose_index, state.tried_s),)
 
 
 def _judge(state: SessionState, now: Observation, settings: GuidanceSettings) -> SessionState:
@@ -217,17 +147,6 @@ def _ask(
     return asked, (CaptureFrame(pose_index, sequence, is_manual, overridden),)
 
 
-def _postpone(state: SessionState, pose_index: int) -> SessionState:
-    """Ask for another open pose; the current one comes after all others. Not while a capture is stored."""
-    current = state.current
-    if current is None or pose_index == current or pose_index not in state.open or state.pending is not None:
-        return state
-    later = tuple(i for i in state.postponed if i not in {current, pose_index})
-    return replace(
-        _afresh(state), current=pose_index, postponed=(*later, current), instead_of=current, refused=None
-    )
-
-
 def _accept(state: SessionState, pose_index: int) -> Step:
     """Go on to the next pose; the same acceptance twice changes nothing."""
     if not 0 <= pose_index < len(state.expected) or pose_index in state.captured:
@@ -236,7 +155,7 @@ def _accept(state: SessionState, pose_index: int) -> Step:
     pending = None if state.pending == pose_index else state.pending
     postponed = tuple(i for i in state.postponed if i != pose_index)
     accepted = replace(
-        _afresh(state),
+        afresh(state),
         captured=captured,
         order=order,
         pending=pending,
@@ -244,15 +163,14 @@ def _accept(state: SessionState, pose_index: int) -> Step:
         instead_of=None,
         refused=None,
     )
-    following = _next_pose(accepted, pose_index)
-    return replace(accepted, current=following), ((RunComplete(),) if following is None else ())
+    return replace(accepted, current=next_pose(accepted, pose_index)), ()
 
 
 def _refuse(state: SessionState, pose_index: int, reason: str) -> Step:
     """Ask for the same pose again; a refusal of what was not asked for changes nothing."""
     if state.pending != pose_index:
         return state, ()
-    return replace(_afresh(state), pending=None, refused=reason), ()
+    return replace(afresh(state), pending=None, refused=reason), ()
 
 
 def _take_back(state: SessionState, pose_index: int) -> Step:
@@ -261,7 +179,7 @@ def _take_back(state: SessionState, pose_index: int) -> Step:
         return state, ()
     order = tuple(i for i in state.order if i != pose_index)
     taken = replace(
-        _afresh(state),
+        afresh(state),
         captured=state.captured - {pose_index},
         order=order,
         current=pose_index,
@@ -269,14 +187,3 @@ def _take_back(state: SessionState, pose_index: int) -> Step:
         refused=None,
     )
     return taken, (DiscardCapture(pose_index),)
-
-
-def _afresh(state: SessionState) -> SessionState:
-    """Return the state without what was made of the latest frame, for another try."""
-    return replace(state, difference=None, obstacles=(), moves=(), dwell=None, tried_s=0.0)
-
-
-def _next_pose(state: SessionState, after: int) -> int | None:
-    """Return the first open pose from `after` on, else the first of all, else a postponed one, else None."""
-    waiting = [i for i in state.open if i not in state.postponed]
-    return next((i for i in waiting if i >= after), next(iter(state.open), None))

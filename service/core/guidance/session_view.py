@@ -6,7 +6,7 @@ from service.core.guidance.auto_capture import Obstacle, dwell_share
 from service.core.guidance.comparison import PoseDifference, match_share
 from service.core.guidance.hints import Hint, ShownHint, show_hints
 from service.core.guidance.observation import Observation
-from service.core.guidance.session import GuidanceSettings, SessionState
+from service.core.guidance.session_state import GuidanceSettings, SessionState
 from service.core.vision.camera import project
 from service.core.vision.live_detection import BoardKind
 from service.core.vision.transforms import Array
@@ -61,7 +61,7 @@ def view(state: SessionState, settings: GuidanceSettings) -> SessionView:
     return SessionView(
         pose_index=state.current,
         captured=len(state.captured),
-        total=len(state.expected),
+        total=state.total,
         automatic=state.automatic,
         board="absent" if state.last is None else state.last.kind,
         ghost=_ghost(state, settings),

@@ -1,4 +1,4 @@
-"""Which of a set's open poses to take next, where the planned order cannot be kept.
+"""Which pose to take next where the plan cannot be kept: an open one of the set, or a new one.
 
 Not here: why it cannot, and that it is recorded.
 """
@@ -8,9 +8,10 @@ from typing import Final
 
 import numpy as np
 
+from service.core.planning.candidates import Candidates
 from service.core.planning.criterion import Criterion
 from service.core.planning.ordering import hand_times
-from service.core.planning.pose_space import Poses
+from service.core.planning.pose_space import Mask, Poses
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 
@@ -49,6 +50,23 @@ def information_gains(
     before = np.trace(metric @ np.linalg.inv(known))
     after = np.trace(metric @ np.linalg.inv(known + scaled[list(candidates)]), axis1=1, axis2=2)
     return np.asarray(np.log(before / after), dtype=np.float64)
+
+
+def fresh_candidates(
+    pool: Candidates, taken: Array, separation_px: float, avoided: Array, away_px: float
+) -> Mask:
+    """Return which candidates (m,) are new: apart from those that are taken and well away from those avoided.
+
+    taken (t, n, 2), avoided (a, n, 2): their corners, px; distances are means over the corners.
+    """
+    return _apart(pool.image_points, taken, separation_px) & _apart(pool.image_points, avoided, away_px)
+
+
+def _apart(points: Array, others: Array, least_px: float) -> Mask:
+    mask = np.ones(len(points), dtype=np.bool_)
+    for other in others:
+        mask &= np.linalg.norm(points - other, axis=-1).mean(axis=1) >= least_px
+    return mask
 
 
 def _ways_s(poses: Poses, target: Target, candidates: Sequence[int], hand: Pose | None) -> Array:

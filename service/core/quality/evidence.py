@@ -6,11 +6,13 @@ Not here: how any of it is judged (gates_*.py, verdict.py).
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from service.core.quality.early_finish import EarlyFinish
 from service.core.quality.limits import Limits
 from service.core.quality.population import Population
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import Intrinsics
 from service.core.vision.detection import Detection
+from service.core.vision.extrinsics import FixedTarget
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose
 from service.core.vision.uncertainty import Region
@@ -35,6 +37,14 @@ class Refusal:
 
 
 @dataclass(frozen=True)
+class AddedPose:
+    """A pose that a run asked for beyond the prescribed ones, and the one that it stands in for, if any."""
+
+    pose: Pose
+    replaces: int | None = None
+
+
+@dataclass(frozen=True)
 class Expectation:
     """What a SKU says about the camera: its nominal intrinsics, limits, zones and prescribed poses.
 
@@ -43,7 +53,9 @@ class Expectation:
     are matched to their nearest poses. other_skus: nominals by code. used_for: by the content hash of an
     image, another serial that it was used for. population_units: how many cameras of the SKU revision are
     known, None where nobody counts them; population: what they have in common, once they are enough;
-    other_populations: those of other SKUs with this lens and image size, by code.
+    other_populations: those of other SKUs with this lens and image size, by code. added: poses whose indices
+    follow those of `poses`. early_finish: when prescribed poses need not be taken; None: never. mounting: the
+    nominal T_vehicle_cam.
     """
 
     nominal: Intrinsics
@@ -57,6 +69,18 @@ class Expectation:
     population_units: int | None = None
     population: Population | None = None
     other_populations: Mapping[str, Population] = field(default_factory=dict)
+    added: tuple[AddedPose, ...] = ()
+    early_finish: EarlyFinish | None = None
+    mounting: Pose | None = None
+
+
+@dataclass(frozen=True)
+class FixedTargetViews:
+    """Pictures of a target at a known place in the vehicle: its pattern, its place, what was detected."""
+
+    target: Target
+    place: FixedTarget
+    views: tuple[NamedDetection, ...]
 
 
 @dataclass(frozen=True)
@@ -77,6 +101,7 @@ class Evidence:
     pose_of_view: tuple[int | None, ...] | None
     working_grid: Array
     valid_grid: Array
+    fixed_target: FixedTargetViews | None = None
 
     @property
     def image_size(self) -> tuple[int, int]:

@@ -4,27 +4,32 @@ One view given ten times has the best RMS of all and a focal length that is 45 %
 uncertainty see it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from service.core.quality.coverage import covered_share, default_working_zone
+from service.core.quality.early_finish import proven_mapping_px
 from service.core.quality.evidence import Evidence, Expectation, NamedDetection
 from service.core.quality.gates import Measurement, check_limit, report_value
 from service.core.quality.gates_frame import NAMES_SHOWN, name_some, some_views
+from service.core.quality.reasons import Reason
 from service.core.vision.camera import project
 from service.core.vision.outer_features import outer_places
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, stack_poses
-from service.core.vision.uncertainty import whole_image
+from service.core.vision.uncertainty import MappingError, whole_image
 
 GATE = "poses"
 
 
-def measure_poses(evidence: Evidence) -> tuple[Measurement, ...]:
-    """Return the measurements of the poses gate; those of prescribed poses only where there are any."""
-    return (*_prescribed(evidence), _separation(evidence), _coverage(evidence))
+def measure_poses(evidence: Evidence, zone_mapping: MappingError) -> tuple[Measurement, ...]:
+    """Return the measurements of the poses gate; those of prescribed poses only where there are any.
+
+    zone_mapping: over the working zone, by which a run that ended early must have proven its accuracy.
+    """
+    return (*_prescribed(evidence, zone_mapping), _separation(evidence), _coverage(evidence))
 
 
 def match_distances(
@@ -46,28 +51,17 @@ def match_distances(
     return mean
 
 
-def _prescribed(evidence: Evidence) -> tuple[Measurement, ...]:
+def _prescribed(evidence: Evidence, zone_mapping: MappingError) -> tuple[Measurement, ...]:
     expectation = evidence.expectation
     if expectation is None or not expectation.poses:
         return ()
-    errors = _match_errors(evidence, expectation, expectation.poses)
+    poses = (*expectation.poses, *(added.pose for added in expectation.added))
+    errors = _match_errors(evidence, expectation, poses)
     limit = evidence.limits.match_share * evidence.image_size[0]
     taken = {pose for pose, (_, error) in errors.items() if error <= limit}
-    missing = [pose + 1 for pose in range(len(expectation.poses)) if pose not in taken]
     worst = max(errors.values(), key=lambda named: named[1], default=("", float("nan")))
     return (
-        check_limit(
-            GATE,
-            "missing_poses",
-            float(len(missing)),
-            "<=",
-            0.0,
-            unit="poses",
-            good="Every prescribed pose was taken.",
-            bad=f"Not taken: {name_some([f'pose {number}' for number in missing])}.",
-            remedy="Take a picture at each of these poses.",
-            facts={"poses": missing[:NAMES_SHOWN], "more": max(0, len(missing) - NAMES_SHOWN)},
-        ),
+        _missing(evidence, expectation, taken, zone_mapping),
         check_limit(
             GATE,
             "match_px",
@@ -82,6 +76,58 @@ def _prescribed(evidence: Evidence) -> tuple[Measurement, ...]:
             facts=some_views([worst[0]] if worst[0] else []),
         ),
     )
+
+
+def _missing(
+    evidence: Evidence, expectation: Expectation, taken: Set[int], zone_mapping: MappingError
+) -> Measurement:
+    """Say which prescribed poses were neither taken nor replaced, unless a proven accuracy excuses it."""
+    answered = _with_replaced(expectation, taken)
+    missing = [pose + 1 for pose in range(len(expectation.poses or ())) if pose not in answered]
+    early = expectation.early_finish
+    if missing and early is not None and len(taken) >= early.smallest_poses:
+        proven_px = proven_mapping_px(evidence.result, zone_mapping)
+        if proven_px <= early.required_px:
+            return _not_needed(len(taken), len(missing), proven_px, early.required_px)
+    return check_limit(
+        GATE,
+        "missing_poses",
+        float(len(missing)),
+        "<=",
+        0.0,
+        unit="poses",
+        good="Every prescribed pose was taken.",
+        bad=f"Not taken: {name_some([f'pose {number}' for number in missing])}.",
+        remedy="Take a picture at each of these poses.",
+        facts={"poses": missing[:NAMES_SHOWN], "more": max(0, len(missing) - NAMES_SHOWN)},
+    )
+
+
+def _not_needed(taken: int, not_needed: int, proven_px: float, required_px: float) -> Measurement:
+    return check_limit(
+        GATE,
+        "missing_poses",
+        0.0,
+        "<=",
+        0.0,
+        unit="poses",
+        good=f"{taken} poses proved the required accuracy ({proven_px:.3f} px of {required_px:.3f} px); "
+        f"{not_needed} prescribed ones were not needed.",
+        bad="",
+        remedy="",
+        reason=Reason.EARLY_FINISH,
+        facts={"taken": taken, "not_needed": not_needed, "proven_px": proven_px, "required_px": required_px},
+    )
+
+
+def _with_replaced(expectation: Expectation, taken: Set[int]) -> set[int]:
+    """Return the poses that were taken, and those that one of these stands in for."""
+    answered, first = set(taken), len(expectation.poses or ())
+    # Backwards, for a pose may stand in for one that was itself added.
+    for place, added in reversed(list(enumerate(expectation.added))):
+        if first + place in answered and added.replaces is not None:
+            answered.add(added.replaces)
+    return answered
 
 
 def _match_errors(

@@ -68,6 +68,13 @@ class Limits:
     half_difference: float = 2.0  # of what noise alone would make it
     held_out_ratio: float = 1.3
     focal_off_share: float = 0.02  # from the nominal
+    translation_sd_mm: float = 1.0  # of the camera in the vehicle, along its worst axis
+    rotation_sd_mdeg: float = 100.0
+    mounting_off_mm: float = 10.0  # from the SKU's nominal mounting
+    mounting_off_mdeg: float = 2000.0
+    extrinsics_rms_px: float = 0.35
+    image_agreement_px: float = 0.15  # what a tenth of a millimetre at half a metre moves a corner by
+    tilt_ambiguity: float = 0.7  # rms of the better over that of the other tilt
     centre_off_px: float = 25.0  # from the nominal; with pixels of 3 um the lens is 75 um off the sensor
     population_distance: float = 27.9  # squared, of nine degrees of freedom: 1 good camera of 1000 is beyond
     other_population: float = 10.0  # -2 ln of a likelihood ratio: e^5, or 150 to 1

@@ -27,6 +27,7 @@ class Reason(StrEnum):
     BLURRED_LENS = "blurred_lens"  # most views are blurred
     QUADRANT_RATIO = "quadrant_ratio"
     MISSING_POSES = "missing_poses"
+    EARLY_FINISH = "early_finish"  # poses are missing, and the accuracy is proven without them
     MATCH = "match_px"
     VIEW_SEPARATION = "view_separation_px"
     IMAGE_COVERAGE = "image_coverage"
@@ -59,5 +60,12 @@ class Reason(StrEnum):
     OTHER_POPULATION = "other_population"
     OTHER_POPULATION_TWIN = "other_population_twin"  # no picture tells the two SKUs apart
     USED_ELSEWHERE = "used_elsewhere"
+    TRANSLATION_SD = "translation_sd_mm"
+    ROTATION_SD = "rotation_sd_mdeg"
+    MOUNTING_OFF = "mounting_off_mm"
+    MOUNTING_TURNED = "mounting_off_mdeg"
+    EXTRINSICS_RMS = "extrinsics_rms_px"
+    IMAGE_AGREEMENT = "image_agreement_px"
+    TILT_AMBIGUITY = "tilt_ambiguity"
     PAPER_SCORE = "paper_score"
     NOMINAL_DIFFERENCE = "nominal_difference_px"

@@ -12,11 +12,18 @@ import numpy as np
 
 from service.core.errors import TooFewViews, WrongImageSize
 from service.core.quality.coverage import default_valid_region, default_working_zone, seen_grid, zone_grid
-from service.core.quality.evidence import Evidence, Expectation, NamedDetection, Refusal
+from service.core.quality.evidence import (
+    Evidence,
+    Expectation,
+    FixedTargetViews,
+    NamedDetection,
+    Refusal,
+)
 from service.core.quality.gates import Measurement, Verdict, worst_verdict
 from service.core.quality.gates_bias import measure_bias
 from service.core.quality.gates_certainty import measure_certainty
 from service.core.quality.gates_cross_check import measure_cross_check
+from service.core.quality.gates_extrinsics import measure_extrinsics
 from service.core.quality.gates_fit import measure_fit
 from service.core.quality.gates_frame import measure_frame
 from service.core.quality.gates_identity import measure_identity
@@ -27,6 +34,7 @@ from service.core.quality.gates_score import Score, measure_score, score_against
 from service.core.quality.gates_sharpness import measure_sharpness
 from service.core.quality.limits import Limits, default_limits
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
+from service.core.vision.extrinsics import Extrinsics, estimate_extrinsics
 from service.core.vision.residuals import mean_reprojection_error
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array
@@ -44,6 +52,8 @@ class Judged:
 
     views: those used, in the order of the result's poses and residuals. refused: those that were not, with
     reasons. zone_mapping, valid_mapping: expected mapping error over the working zone and the valid region.
+    extrinsics: where the camera is in the vehicle; None without pictures of a fixed target; fixed_views:
+    their names.
     score: the paper's S against the SKU's nominal; score_difference_px: the same difference as a map; None
     without.
     """
@@ -58,6 +68,8 @@ class Judged:
     refused: tuple[Refusal, ...]
     zone_mapping: MappingError
     valid_mapping: MappingError
+    extrinsics: Extrinsics | None = None
+    fixed_views: tuple[str, ...] = ()
 
 
 def calibrate_and_judge(
@@ -69,13 +81,15 @@ def calibrate_and_judge(
     fixed: Collection[str] = (),
     refused: Sequence[Refusal] = (),
     board: Array | None = None,
+    fixed_target: FixedTargetViews | None = None,
 ) -> Judged:
     """Calibrate from detections and judge the outcome by every gate.
 
     refused: images that gave no detection; they count in the frame gate. Detections of another image size
     than the SKU's (without SKU: than the majority's) join them. board: where the corners of the plate itself
-    are, (n, 3) m; by default where the target has them. Gates that need a SKU are left out without an
-    expectation. Raises TooFewViews (naming each refused image with its reason) and DegenerateViews.
+    are, (n, 3) m; by default where the target has them. fixed_target: pictures that say where the camera is
+    in the vehicle. Gates that need a SKU are left out without an expectation. Raises TooFewViews (naming each
+    refused image with its reason), DegenerateViews, and PoseUndetermined of the fixed target.
     """
     image_size = _image_size(detections, expectation)
     kept = [i for i, named in enumerate(detections) if named.detection.image_size == image_size]
@@ -102,6 +116,7 @@ def calibrate_and_judge(
         pose_of_view=None if answers is None else tuple(answers[i] for i in kept),
         working_grid=_working_grid(views, image_size, expectation),
         valid_grid=_valid_grid(views, image_size, expectation),
+        fixed_target=fixed_target,
     )
     return _judge(evidence)
 
@@ -114,10 +129,12 @@ def _judge(evidence: Evidence) -> Judged:
     if expectation is not None:
         mean_px = mean_reprojection_error(result.residuals)
         score = score_against(result, expectation.nominal, evidence.working_grid, mean_px)
+    extrinsics = _extrinsics(evidence)
+    mounting = None if expectation is None else expectation.mounting
     measurements = (
         *measure_frame(evidence),
         *measure_sharpness(evidence),
-        *measure_poses(evidence),
+        *measure_poses(evidence, zone),
         *measure_fit(evidence),
         *measure_certainty(evidence, zone, valid),
         *measure_bias(evidence),
@@ -125,6 +142,7 @@ def _judge(evidence: Evidence) -> Judged:
         *measure_model(evidence),
         *measure_identity(evidence),
         *measure_population(evidence),
+        *(() if extrinsics is None else measure_extrinsics(extrinsics, evidence.limits, mounting)),
         *measure_score(score),
     )
     return Judged(
@@ -138,7 +156,21 @@ def _judge(evidence: Evidence) -> Judged:
         refused=evidence.refused,
         zone_mapping=zone,
         valid_mapping=valid,
+        extrinsics=extrinsics,
+        fixed_views=() if evidence.fixed_target is None else _names(evidence.fixed_target.views),
     )
+
+
+def _names(views: Sequence[NamedDetection]) -> tuple[str, ...]:
+    return tuple(view.name for view in views)
+
+
+def _extrinsics(evidence: Evidence) -> Extrinsics | None:
+    fixed, result = evidence.fixed_target, evidence.result
+    if fixed is None:
+        return None
+    views = _solver_views(fixed.views, fixed.target.object_points)
+    return estimate_extrinsics(views, result.intrinsics, result.covariance, fixed.place)
 
 
 def _solver_views(views: Sequence[NamedDetection], board: Array) -> list[View]:

@@ -85,7 +85,7 @@ def estimate_board_shape(
         M, g = _pooled(board, runs, results)
         covariance = np.linalg.inv(prior + basis.T @ M @ basis)
         step = covariance @ (basis.T @ g - prior @ q)
-        q = q + step
+        q += step
         nominals = [result.intrinsics for result in results]
         sigmas.append(float(np.sqrt(np.mean([result.sigma_px**2 for result in results]))))
         if np.abs(basis @ step).max() < SMALL_STEP_M:

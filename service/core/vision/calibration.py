@@ -14,12 +14,18 @@ import numpy as np
 from service.core.errors import DegenerateViews, IntrinsicsInvalid
 from service.core.vision.camera import Intrinsics, parameter_names, project
 from service.core.vision.levenberg_marquardt import Fit
-from service.core.vision.multi_start import AGREEMENT_PX, Ends, Problem, solve_from_starts
+from service.core.vision.multi_start import (
+    AGREEMENT_PX,
+    Ends,
+    Problem,
+    solve_from_nominal,
+    solve_from_starts,
+)
 from service.core.vision.normal_equations import reduce, unit_scale
 from service.core.vision.transforms import Array, Pose, rotation_vector
 from service.core.vision.view_stack import View, stack_views
 
-__all__ = ["CalibrationResult", "StartReport", "View", "calibrate_intrinsics"]
+__all__ = ["CalibrationResult", "StartReport", "View", "calibrate_intrinsics", "refine_intrinsics"]
 
 LARGEST_CONDITION = 1e13
 
@@ -79,17 +85,20 @@ def calibrate_intrinsics(
     a nominal).
     """
     check_request(image_size, lens, nominal, fixed)
-    names = parameter_names(lens)
-    free = np.array([i for i, name in enumerate(names) if name not in fixed], dtype=np.intp)
-    problem = Problem(lens, image_size, stack_views(views), free, nominal)
-    ends = solve_from_starts(problem)
-    solved = [fit for fit in ends.fits.values() if fit]
-    if not solved:
-        raise DegenerateViews(
-            "No camera of this lens can see the views; check the target and the lens model."
-        )
-    best = min(solved, key=lambda fit: fit.equations.cost)
-    return _result(problem, best, ends, tuple(name for name in names if name in fixed))
+    problem = _problem(views, image_size, lens, nominal, fixed)
+    return _best_result(problem, solve_from_starts(problem), fixed)
+
+
+def refine_intrinsics(
+    views: Sequence[View], nominal: Intrinsics, fixed: Collection[str] = ()
+) -> CalibrationResult:
+    """Return the camera near a nominal one that explains the views best: fast, for an estimate on the way.
+
+    One start proves no optimum, so that `converged` is False. Raises as `calibrate_intrinsics`.
+    """
+    check_request(nominal.image_size, nominal.lens, nominal, fixed)
+    problem = _problem(views, nominal.image_size, nominal.lens, nominal, fixed)
+    return _best_result(problem, solve_from_nominal(problem, nominal), fixed)
 
 
 def check_request(
@@ -109,6 +118,28 @@ def check_request(
             f"The nominal is a {nominal.lens} lens at {nominal.image_size[0]}x{nominal.image_size[1]} px, "
             f"the views are {lens} at {image_size[0]}x{image_size[1]} px; give the nominal of this camera."
         )
+
+
+def _problem(
+    views: Sequence[View],
+    image_size: tuple[int, int],
+    lens: str,
+    nominal: Intrinsics | None,
+    fixed: Collection[str],
+) -> Problem:
+    free = [i for i, name in enumerate(parameter_names(lens)) if name not in fixed]
+    return Problem(lens, image_size, stack_views(views), np.array(free, dtype=np.intp), nominal)
+
+
+def _best_result(problem: Problem, ends: Ends, fixed: Collection[str]) -> CalibrationResult:
+    """Return the public result of the end of least cost; DegenerateViews where there is none."""
+    solved = [fit for fit in ends.fits.values() if fit]
+    if not solved:
+        raise DegenerateViews(
+            "No camera of this lens can see the views; check the target and the lens model."
+        )
+    best = min(solved, key=lambda fit: fit.equations.cost)
+    return _result(problem, best, ends, tuple(n for n in parameter_names(problem.lens) if n in fixed))
 
 
 def _result(problem: Problem, best: Fit, ends: Ends, fixed: tuple[str, ...]) -> CalibrationResult:

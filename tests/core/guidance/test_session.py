@@ -7,6 +7,7 @@ from service.core.guidance.actions import (
     CaptureAccepted,
     CaptureFrame,
     CaptureRefused,
+    CapturesJudged,
     DiscardCapture,
     Effect,
     Frame,
@@ -19,7 +20,9 @@ from service.core.guidance.actions import (
 from service.core.guidance.comparison import default_tolerances
 from service.core.guidance.hints import Hint
 from service.core.guidance.observation import Observation
-from service.core.guidance.session import GuidanceSettings, SessionState, start_session, step
+from service.core.guidance.session import step
+from service.core.guidance.session_poses import start_session
+from service.core.guidance.session_state import GuidanceSettings, SessionState
 from service.core.guidance.session_view import view
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.target_chessboard import Chessboard
@@ -130,14 +133,16 @@ def test_a_board_that_cannot_be_compared_has_its_hint(kind: str, hint: Hint) -> 
     assert view(state, SETTINGS).difference is None
 
 
-def test_an_accepted_capture_leads_to_the_next_pose_and_the_last_one_completes_the_run() -> None:
+def test_accepted_captures_lead_to_the_next_pose_and_all_of_them_complete_the_run() -> None:
     state = start_session(POSES)
     completions: list[tuple[Effect, ...]] = []
     for index in range(3):
         assert state.current == index
         state, effects = play(state, held(POSES[index], 10.0 * index))
         assert len(effects) == 1
-        state, then = step(state, CaptureAccepted(index), SETTINGS)
+        state, none = step(state, CaptureAccepted(index), SETTINGS)
+        assert none == ()
+        state, then = step(state, CapturesJudged(), SETTINGS)
         completions.append(then)
     assert completions == [(), (), (RunComplete(),)]
     assert state.current is None

@@ -10,6 +10,7 @@ import { words } from "../words/language";
 import { useCaptureDetails } from "./capture_details";
 import { CapturesPanel } from "./captures_panel";
 import { ErrorMapsPanel } from "./error_maps_panel";
+import { ExtrinsicsPanel } from "./extrinsics_panel";
 import { GatesTable } from "./gates_table";
 import { HistoryPanel } from "./history_panel";
 import { IntrinsicsTable } from "./intrinsics_table";
@@ -72,6 +73,7 @@ function Run({ run, asked }: { run: RunDetail; asked: string }): JSX.Element {
           <div class="column">
             <IntrinsicsTable result={result} />
             <ResultFilesPanel run={run} />
+            <ExtrinsicsPanel result={result} />
             <ResidualsPanel
               result={result}
               captures={captures}

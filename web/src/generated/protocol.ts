@@ -20,6 +20,9 @@ export interface Ack {
   sequence: number;
 }
 
+/** Why a pose that is not of the set is asked for. */
+export type AddedFor = "accuracy" | "weak-capture" | "out-of-reach";
+
 /** The whole board in the picture. */
 export interface BoardSeen {
   /** The four outer corners, in order round the board. */
@@ -67,6 +70,7 @@ export interface CaptureAccepted {
   match_error_px: number | null;
   edge_width_px: number | null;
   accuracy: Accuracy | null;
+  estimate: Estimate | null;
 }
 
 /** The picture was not taken, and the pose is asked for again. `code` as in a problem document. */
@@ -92,6 +96,23 @@ export interface Difference {
   /** Mean distance of the four outer corners: the paper's rule. */
   corner_px: number;
   is_upside_down: boolean;
+}
+
+/** The camera as the captures so far determine it: fast, on the way; the verdict has its own solve. */
+export interface Estimate {
+  captures: number;
+  /** fx fy cx cy in px, then the lens's coefficients. */
+  parameters: Record<string, number>;
+  /** Standard deviation of each parameter; 0 for fixed ones. */
+  sd: Record<string, number>;
+  /** Expected mapping error over the working zone. */
+  mapping_mean_px: number | null;
+  /** Its largest value there. */
+  mapping_worst_px: number | null;
+  /** What the SKU asks of the mean. */
+  required_mapping_px: number;
+  /** Required over present mean; 1: the accuracy is reached. */
+  reached: number;
 }
 
 /** Head of a browser source's picture; `width`x`height` grey bytes follow it. */
@@ -225,7 +246,7 @@ export interface Retake {
   pose_index: number;
 }
 
-/** The run that the station works on: sent when it is opened or resumed, and after each undo or retake. */
+/** The run that the station works on: when it is opened or resumed, after an undo, with a pose more. */
 export interface Run {
   type: "run";
   run_id: string;
@@ -243,8 +264,12 @@ export interface Run {
   automatic: boolean;
   /** What the whole pose set was planned to reach. */
   promised: Accuracy | null;
+  /** How many captures the run is to have; without poses that were replaced. */
+  total: number;
   /** So far; null before the captures determine the camera. */
   accuracy: Accuracy | null;
+  /** The same with all parameters and the mapping error. */
+  estimate: Estimate | null;
 }
 
 /** The station has no run any more: it was aborted, or the next vehicle was asked for. */
@@ -301,7 +326,7 @@ export interface State {
   /** A frame was judged fit and is being stored. */
   is_capturing: boolean;
   accuracy: Accuracy | null;
-  /** The pose that was not reached and comes again last; `pose_index` comes first. */
+  /** The pose that `pose_index` comes before, as it was not reached, or stands in for. */
   instead_of: number | null;
   /** How long this pose is tried with a board in the picture. */
   tried_s: number;
@@ -333,6 +358,10 @@ export interface WantedPose {
   /** The four outer corners, in order round the board. */
   outline: [number, number][];
   angles: PoseAngles;
+  /** Why it is asked for, where it is not of the pose set. */
+  added_for: AddedFor | null;
+  /** The pose that it stands in for, which is not needed any more. */
+  replaces: number | null;
 }
 
 /** The hello was accepted. A `run` follows when one is resumed. */

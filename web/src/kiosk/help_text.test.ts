@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { en } from "../words/en";
-import { helpText } from "./help_text";
+import { addedText, helpText } from "./help_text";
 
 const LIVE = { instead_of: null, tried_s: 0, absent_s: 0 };
 
@@ -15,6 +15,13 @@ describe("what helps on", () => {
     expect(helpText("move-left", other, en)).toBe(en.help_another_first);
     expect(helpText("move-left", { ...other, tried_s: 9 }, en)).toBeNull();
     expect(helpText("move-left", LIVE, en)).toBeNull();
+  });
+
+  it("says why a pose is asked for that is not of the set", () => {
+    const pose = { added_for: "out-of-reach" } as const;
+    expect(addedText(pose, en)).toBe(en.help_added_reach);
+    expect(helpText("move-left", { ...LIVE, instead_of: 2 }, en, pose)).toBe(en.help_added_reach);
+    expect(addedText({ added_for: null }, en)).toBeNull();
   });
 
   it("says that nobody holds a board, after a while", () => {

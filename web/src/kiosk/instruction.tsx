@@ -1,5 +1,6 @@
 // The strip under the picture: one instruction, large; the next one small; or what went wrong and what to do.
 import { type JSX } from "preact";
+import type { State, WantedPose } from "../generated/protocol";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
 import { helpText } from "./help_text";
@@ -41,14 +42,14 @@ function Hint({ kiosk, state, say, codes }: HintProps): JSX.Element {
   const { live, run } = state;
   if (step === undefined || live === null) return <Note text={say.guide_manual} />;
   const { code, beside } = step;
-  const wanted = run?.poses.find((pose) => pose.pose_index === live.pose_index)?.angles ?? null;
+  const pose = run?.poses.find(({ pose_index }) => pose_index === live.pose_index) ?? null;
   const isHeld = live.is_capturing || code === "hold" || code === "hold-still";
   return (
     <section class={`strip ${isHeld ? "strip-good" : "strip-move"}`} data-hint={code} data-beside={beside}>
       <Pictogram
         code={code}
         beside={beside}
-        wanted={wanted}
+        wanted={pose?.angles ?? null}
         difference={live.difference}
         dwell={live.is_capturing ? 1 : live.dwell}
         isMirrored={kiosk.mirrored.value}
@@ -57,17 +58,23 @@ function Hint({ kiosk, state, say, codes }: HintProps): JSX.Element {
         <p class="strip-main" role="status">
           <Marked text={stepText(step, say)} />
         </p>
-        <p class="strip-next">
-          {(live.is_capturing ? null : helpText(code, live, say)) ??
-            detailOf(code, next, live.is_capturing, say)}
-        </p>
+        <p class="strip-next">{detailOf(step, next, live, pose, say)}</p>
       </div>
     </section>
   );
 }
 
-function detailOf(code: HintCode, next: Step | undefined, isCapturing: boolean, say: Words): string {
-  if (isCapturing) return say.guide_capturing;
+function detailOf(
+  step: Step,
+  next: Step | undefined,
+  live: State,
+  pose: WantedPose | null,
+  say: Words,
+): string {
+  const { code } = step;
+  if (live.is_capturing) return say.guide_capturing;
+  const help = helpText(code, live, say, pose);
+  if (help !== null) return help;
   if (code === "turn-upside-down") return say.guide_dot_into_ring;
   if (code === "wrong-board") return say.guide_wrong_board;
   return next === undefined ? "" : `${say.guide_next}: ${stepText(next, say).replaceAll("*", "")}`;

@@ -142,7 +142,13 @@ function stored(state: KioskState, capture: CaptureAccepted): KioskState {
   if (state.run === null) return state;
   return {
     ...state,
-    run: { ...state.run, captured: capture.captured, accuracy: capture.accuracy },
+    run: {
+      ...state.run,
+      captured: capture.captured,
+      total: capture.total,
+      accuracy: capture.accuracy,
+      estimate: capture.estimate,
+    },
     stored: { count: state.stored.count + 1, capture },
     refused: { ...state.refused, capture: null },
     problem: null,
@@ -169,7 +175,7 @@ export function isLive(state: KioskState): boolean {
   return isOnline(state) && (state.problem === null || !isOfThePicture(state.problem));
 }
 
-/** All poses are captured and the service is computing. */
+/** No pose is asked for any more and the service is computing. */
 export function isFinishing({ run }: KioskState): boolean {
-  return run !== null && run.pose_index === null && run.captured.length >= run.poses.length;
+  return run !== null && run.pose_index === null;
 }

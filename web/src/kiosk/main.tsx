@@ -4,6 +4,7 @@ import "../look/page.css";
 import "../look/notices.css";
 import "../look/kiosk.css";
 import "../look/kiosk_figures.css";
+import "../look/kiosk_accuracy.css";
 import "../look/kiosk_guide.css";
 import "../look/kiosk_hand.css";
 import "../look/kiosk_pictograms.css";

@@ -20,7 +20,7 @@ function pose(pose_index: number): WantedPose {
     [left + 320, 300],
     [left, 300],
   ];
-  return { pose_index, outline, angles: ANGLES };
+  return { pose_index, outline, angles: ANGLES, added_for: null, replaces: null };
 }
 
 export function welcome(more: Partial<Welcome>): Welcome {
@@ -54,8 +54,10 @@ export function run(more: Partial<Run>): Run {
     captured: [],
     pose_index: 0,
     automatic: true,
+    total: 3,
     promised: null,
     accuracy: null,
+    estimate: null,
     ...more,
   };
 }
@@ -99,6 +101,7 @@ export function accepted(more: Partial<CaptureAccepted>): CaptureAccepted {
     match_error_px: 4.2,
     edge_width_px: 1.8,
     accuracy: null,
+    estimate: null,
     ...more,
   };
 }

@@ -13,13 +13,16 @@ interface Props {
 }
 
 export function PoseTiles({ run, isMirrored, onRetake }: Props): JSX.Element {
+  // A pose that another one stands in for is not asked for any more.
+  const replaced = new Set(run.poses.map((pose) => pose.replaces));
+  const poses = run.poses.filter((p) => !replaced.has(p.pose_index) || run.captured.includes(p.pose_index));
   return (
-    <ol class={`tiles ${run.poses.length <= FEW ? "tiles-few" : ""}`} aria-label={words.value.guide_poses}>
-      {run.poses.map((pose, i) => (
+    <ol class={`tiles ${poses.length <= FEW ? "tiles-few" : ""}`} aria-label={words.value.guide_poses}>
+      {poses.map((pose) => (
         <Tile
           key={pose.pose_index}
           pose={pose}
-          number={i + 1}
+          number={pose.pose_index + 1}
           imageSize={run.image_size}
           isTaken={run.captured.includes(pose.pose_index)}
           isNow={run.pose_index === pose.pose_index}
@@ -44,11 +47,14 @@ interface TileProps {
 function Tile({ pose, number, imageSize, isTaken, isNow, isMirrored, onRetake }: TileProps): JSX.Element {
   const say = words.value;
   const [width, height] = imageSize;
+  const isAdded = pose.added_for !== null;
   const label = isTaken
     ? say.guide_pose_taken(number)
-    : isNow
-      ? say.guide_pose_now(number)
-      : say.guide_pose(number);
+    : isAdded
+      ? say.help_pose_added(number)
+      : isNow
+        ? say.guide_pose_now(number)
+        : say.guide_pose(number);
   const kind = isTaken ? "taken" : isNow ? "now" : "open";
   return (
     <li>
@@ -66,7 +72,7 @@ function Tile({ pose, number, imageSize, isTaken, isNow, isMirrored, onRetake }:
             vector-effect="non-scaling-stroke"
           />
         </svg>
-        <span class="tile-number">{isTaken ? "✓" : number}</span>
+        <span class="tile-number">{isTaken ? "✓" : `${isAdded ? "+" : ""}${number}`}</span>
       </button>
     </li>
   );

@@ -71,7 +71,7 @@ function captured(
 }
 
 function begun(run: Run, since_ms: number | null): Practice {
-  return { run_id: run.run_id, total: run.poses.length, laps: [], untimed: run.captured, since_ms };
+  return { run_id: run.run_id, total: run.total, laps: [], untimed: run.captured, since_ms };
 }
 
 export interface Score {

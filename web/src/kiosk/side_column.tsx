@@ -1,9 +1,9 @@
 // Beside the picture: whose run it is, how far it is, how good the match, and what the hands can press.
 import { type JSX } from "preact";
-import { fixed } from "../format/numbers";
-import type { Accuracy } from "../generated/protocol";
 import { words } from "../words/language";
 import type { Words } from "../words/en";
+import { AccuracyBar } from "./accuracy_bar";
+import { AddedPoseNote } from "./added_pose_note";
 import type { Kiosk } from "./kiosk";
 import { isFinishing, isOnline } from "./kiosk_state";
 import { PurposeTag } from "./purpose_tag";
@@ -24,17 +24,20 @@ export function SideColumn({ kiosk }: { kiosk: Kiosk }): JSX.Element | null {
         <span class="whose-sku">
           {run.sku} · {kiosk.state.value.welcome?.name ?? kiosk.station} <PurposeTag purpose={run.purpose} />
         </span>
-        <span class="count" aria-label={say.guide_of(run.captured.length, run.poses.length)}>
-          <b>{run.captured.length}</b>/{run.poses.length}
+        <span class="count" aria-label={say.guide_of(run.captured.length, run.total)}>
+          <b>{run.captured.length}</b>/{run.total}
         </span>
       </header>
-      <PoseTiles run={run} isMirrored={kiosk.mirrored.value} onRetake={askRetake} />
+      <div class="poses">
+        <AddedPoseNote run={run} say={say} />
+        <PoseTiles run={run} isMirrored={kiosk.mirrored.value} onRetake={askRetake} />
+      </div>
       <Match
         share={live?.match ?? 0}
         isHeld={(live?.dwell ?? 0) > 0 || live?.is_capturing === true}
         say={say}
       />
-      <AccuracyLine accuracy={live?.accuracy ?? run.accuracy} promised={run.promised} say={say} />
+      <AccuracyBar estimate={run.estimate} say={say} />
       <Actions kiosk={kiosk} say={say} />
       <Switches kiosk={kiosk} />
     </aside>
@@ -58,22 +61,6 @@ function Match({ share, isHeld, say }: { share: number; isHeld: boolean; say: Wo
         <div class="match-fill" style={{ width: `${percent}%` }} />
       </div>
     </div>
-  );
-}
-
-interface AccuracyProps {
-  accuracy: Accuracy | null;
-  promised: Accuracy | null;
-  say: Words;
-}
-
-function AccuracyLine({ accuracy, promised, say }: AccuracyProps): JSX.Element {
-  return (
-    <p class="accuracy">
-      <span>{say.guide_accuracy}</span>
-      <b>{accuracy === null ? say.guide_accuracy_none : `± ${fixed(accuracy.fx_px, 2)} px`}</b>
-      {promised !== null && <span class="muted">{say.guide_promised(`${fixed(promised.fx_px, 2)} px`)}</span>}
-    </p>
   );
 }
 

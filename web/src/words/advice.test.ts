@@ -62,6 +62,8 @@ describe("the advice of a measurement", () => {
       units: 60,
       parameter: "fx",
       deviations: 5.1,
+      taken: 9,
+      not_needed: 3,
     };
     for (const [language, say] of [
       ["en", en],

@@ -72,6 +72,10 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ poses }: About) => `Nicht aufgenommen: ${poses}.`,
     remedy: "An jeder dieser Posen ein Bild aufnehmen.",
   },
+  early_finish: {
+    good: ({ fact }: About) =>
+      `${fact("taken")} Posen haben die geforderte Genauigkeit bewiesen; ${fact("not_needed")} vorgeschriebene wurden nicht gebraucht.`,
+  },
   match_px: {
     good: "Jede Ansicht liegt auf ihrer Sollpose.",
     bad: ({ views }: About) =>
@@ -243,6 +247,44 @@ export const adviceDe: Record<keyof typeof adviceEn, Advice> = {
     good: "Kein Bild wurde für eine andere Seriennummer benutzt.",
     bad: ({ views }: About) => `Schon für eine andere Seriennummer benutzt: ${views}.`,
     remedy: "Prüfen, welche Kamera die Station liest, und die Bilder der Kamera dieses Fahrzeugs aufnehmen.",
+  },
+  translation_sd_mm: {
+    good: "Die Position der Kamera im Fahrzeug ist gut bestimmt.",
+    bad: "Die Position der Kamera im Fahrzeug ist unsicher.",
+    remedy:
+      "Ein größeres festes Target verwenden oder eines, das näher an der Kamera und gegen sie gekippt steht, und seinen Ort neu vermessen.",
+  },
+  rotation_sd_mdeg: {
+    good: "Die Blickrichtung der Kamera im Fahrzeug ist gut bestimmt.",
+    bad: "Die Blickrichtung der Kamera im Fahrzeug ist unsicher.",
+    remedy:
+      "Ein größeres festes Target verwenden oder eines, das näher an der Kamera und gegen sie gekippt steht, und seinen Ort neu vermessen.",
+  },
+  mounting_off_mm: {
+    good: "Die Kamera ist, wo sie hingehört.",
+    bad: "Die Kamera ist nicht, wo sie hingehört.",
+    remedy: "Einbau der Kamera prüfen, und ob das Target der Station dort steht, wo es angegeben ist.",
+  },
+  mounting_off_mdeg: {
+    good: "Die Kamera blickt, wohin sie soll.",
+    bad: "Die Kamera blickt nicht, wohin sie soll.",
+    remedy: "Einbau der Kamera prüfen, und ob das Target der Station dort steht, wo es angegeben ist.",
+  },
+  extrinsics_rms_px: {
+    good: "Die Ecken des festen Targets passen zu seiner Pose.",
+    bad: "Die Ecken des festen Targets passen nicht zu seiner Pose.",
+    remedy: "Prüfen, ob das feste Target das angegebene und eben ist und nichts es verdeckt.",
+  },
+  image_agreement_px: {
+    good: "Alle Bilder zeigen das feste Target am selben Ort.",
+    bad: "Kamera oder festes Target haben sich zwischen den Bildern bewegt.",
+    remedy: "Das Fahrzeug ruhig stehen lassen, dann die Bilder des festen Targets noch einmal aufnehmen.",
+  },
+  tilt_ambiguity: {
+    good: "Nur eine Neigung des festen Targets erklärt seine Ecken.",
+    bad: "Zwei Neigungen des festen Targets erklären seine Ecken fast gleich gut.",
+    remedy:
+      "Ein größeres festes Target verwenden oder eines, das näher an der Kamera und gegen sie gekippt steht.",
   },
   paper_score: { good: "Die Gütezahl der Vorlage gegen die Nennkamera der SKU; höher ist näher." },
   nominal_difference_px: {

@@ -59,6 +59,10 @@ export const adviceEn = {
     bad: ({ poses }: About) => `Not taken: ${poses}.`,
     remedy: "Take a picture at each of these poses.",
   },
+  early_finish: {
+    good: ({ fact }: About) =>
+      `${fact("taken")} poses proved the required accuracy; ${fact("not_needed")} prescribed ones were not needed.`,
+  },
   match_px: {
     good: "Every view lies on its prescribed pose.",
     bad: ({ views }: About) =>
@@ -230,6 +234,43 @@ export const adviceEn = {
     good: "No picture was used for another serial.",
     bad: ({ views }: About) => `Already used for another serial: ${views}.`,
     remedy: "Check which camera the station read, and take the pictures of this vehicle's camera.",
+  },
+  translation_sd_mm: {
+    good: "The camera's position in the vehicle is well determined.",
+    bad: "The camera's position in the vehicle is uncertain.",
+    remedy:
+      "Use a larger fixed target, or one nearer to the camera and tilted against it, and measure its place again.",
+  },
+  rotation_sd_mdeg: {
+    good: "The camera's direction in the vehicle is well determined.",
+    bad: "The camera's direction in the vehicle is uncertain.",
+    remedy:
+      "Use a larger fixed target, or one nearer to the camera and tilted against it, and measure its place again.",
+  },
+  mounting_off_mm: {
+    good: "The camera is where it belongs.",
+    bad: "The camera is not where it belongs.",
+    remedy: "Check how the camera is mounted, and that the station's fixture is the one that stands there.",
+  },
+  mounting_off_mdeg: {
+    good: "The camera looks where it should.",
+    bad: "The camera does not look where it should.",
+    remedy: "Check how the camera is mounted, and that the station's fixture is the one that stands there.",
+  },
+  extrinsics_rms_px: {
+    good: "The corners of the fixed target fit its pose.",
+    bad: "The corners of the fixed target do not fit its pose.",
+    remedy: "Check that the fixed target is the declared one and flat, and that nothing covers it.",
+  },
+  image_agreement_px: {
+    good: "All pictures of the fixed target show it in the same place.",
+    bad: "The camera or the fixed target moved between the pictures.",
+    remedy: "Let the vehicle stand still, then take the pictures of the fixed target again.",
+  },
+  tilt_ambiguity: {
+    good: "Only one tilt of the fixed target explains its corners.",
+    bad: "Two tilts of the fixed target explain its corners almost equally.",
+    remedy: "Use a larger fixed target, or one nearer to the camera and tilted against it.",
   },
   paper_score: { good: "The paper’s score against the SKU’s nominal camera; higher is nearer." },
   nominal_difference_px: { good: "How far this camera maps the working zone from the SKU’s nominal camera." },

@@ -71,6 +71,10 @@ export const adviceZh: Record<keyof typeof adviceEn, Advice> = {
     bad: ({ poses }: About) => `未采集：${poses}。`,
     remedy: "在这些位姿各拍一张图像。",
   },
+  early_finish: {
+    good: ({ fact }: About) =>
+      `${fact("taken")} 个位姿已证明达到要求的精度；${fact("not_needed")} 个规定位姿不再需要。`,
+  },
   match_px: {
     good: "每个视图都在规定的位姿上。",
     bad: ({ views }: About) => (views === "" ? "没有视图在规定的位姿上。" : `离规定的位姿太远：${views}。`),
@@ -231,6 +235,41 @@ export const adviceZh: Record<keyof typeof adviceEn, Advice> = {
     good: "没有图像曾用于其他序列号。",
     bad: ({ views }: About) => `已用于其他序列号：${views}。`,
     remedy: "检查工位读取的是哪台相机，并拍摄这辆车的相机的图像。",
+  },
+  translation_sd_mm: {
+    good: "相机在车辆中的位置已充分确定。",
+    bad: "相机在车辆中的位置不确定。",
+    remedy: "使用更大的固定标定板，或让它更靠近相机并相对相机倾斜，然后重新测量其位置。",
+  },
+  rotation_sd_mdeg: {
+    good: "相机在车辆中的朝向已充分确定。",
+    bad: "相机在车辆中的朝向不确定。",
+    remedy: "使用更大的固定标定板，或让它更靠近相机并相对相机倾斜，然后重新测量其位置。",
+  },
+  mounting_off_mm: {
+    good: "相机位于应在的位置。",
+    bad: "相机不在应在的位置。",
+    remedy: "检查相机的安装，并检查工位的固定标定板是否就是所登记的那块。",
+  },
+  mounting_off_mdeg: {
+    good: "相机朝向正确。",
+    bad: "相机朝向不正确。",
+    remedy: "检查相机的安装，并检查工位的固定标定板是否就是所登记的那块。",
+  },
+  extrinsics_rms_px: {
+    good: "固定标定板的角点与其位姿相符。",
+    bad: "固定标定板的角点与其位姿不符。",
+    remedy: "检查固定标定板是否为所申报的、是否平整、是否被遮挡。",
+  },
+  image_agreement_px: {
+    good: "所有图像中的固定标定板都在同一位置。",
+    bad: "在拍摄之间相机或固定标定板移动过。",
+    remedy: "让车辆静止，然后重新拍摄固定标定板。",
+  },
+  tilt_ambiguity: {
+    good: "只有一种倾斜能解释固定标定板的角点。",
+    bad: "两种倾斜几乎同样能解释固定标定板的角点。",
+    remedy: "使用更大的固定标定板，或让它更靠近相机并相对相机倾斜。",
   },
   paper_score: { good: "论文的评分，以 SKU 的标称相机为准；越高越接近。" },
   nominal_difference_px: { good: "该相机在工作区内的映射与 SKU 标称相机相差多少。" },

@@ -3,6 +3,10 @@ import type { enHelp } from "./en_help";
 
 export const deHelp: typeof enHelp = {
   help_another_first: "Erst eine andere Pose; die vorige kommt später noch einmal",
+  help_added_accuracy: "Noch eine Pose, damit das Ergebnis genau wird",
+  help_added_weak: "Noch eine Pose statt eines Bildes, das nicht gut genug war",
+  help_added_reach: "Eine andere Pose statt der unerreichbaren",
+  help_pose_added: (number) => `Zusätzliche Pose ${number}`,
   help_board_away: "Kein Target im Bild. Zum Weitermachen das Target vor die Kamera halten",
   help_more_light: "Zu dunkel für die Kamera: Lampe einschalten oder wegnehmen, was im Licht steht",
   help_less_light: "Das Target spiegelt Licht: Lampe oder Fenster abschatten oder dimmen",

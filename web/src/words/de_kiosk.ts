@@ -59,9 +59,10 @@ export const deKiosk: KioskWords = {
   guide_pose: (number) => `Pose ${number}`,
   guide_pose_taken: (number) => `Pose ${number}, aufgenommen. Noch einmal aufnehmen`,
   guide_pose_now: (number) => `Pose ${number}, jetzt gesucht`,
-  guide_accuracy: "Brennweite bisher",
-  guide_promised: (value) => `geplant ± ${value}`,
+  guide_accuracy: "Genauigkeit",
   guide_accuracy_none: "nach einigen Posen",
+  guide_accuracy_growing: "wächst",
+  guide_accuracy_reached: "erreicht",
   guide_manual: "Aufnahme drücken, sobald das Target im gestrichelten Umriss liegt",
 
   figures_title: "Zahlen",
@@ -71,6 +72,11 @@ export const deKiosk: KioskWords = {
   figures_judged: "Beurteilt",
   figures_waited: "Bild bis Zustand",
   figures_trip: "Hin und zurück",
+  figures_focal: "Brennweite",
+  figures_promised: (value) => `geplant ${value}`,
+  figures_mapping: "Abbildungsfehler",
+  figures_mapping_of: (mean, worst, required) =>
+    `${mean} im Mittel, ${worst} höchstens, ${required} gefordert`,
   figures_problem: "Problem",
   figures_per_second: (value) => `${value} / s`,
 
@@ -118,6 +124,8 @@ export const deKiosk: KioskWords = {
   remedy_cross_check: "Die Bilder sind vielleicht von zwei Kameras: Etikett prüfen, dann neu kalibrieren.",
   remedy_bias: "Prüfen, ob das Target eben und sauber ist, dann neu kalibrieren.",
   remedy_model: "Die Linse ist nicht wie angegeben: Kamera dem Qualitätsingenieur geben.",
+  remedy_extrinsics:
+    "Die Kamera sitzt nicht wie vorgesehen, oder das Fahrzeug hat sich bewegt: Qualitätsingenieur rufen.",
   remedy_identity: "Das ist vielleicht eine andere Kamera als angegeben: Etikett und Kameratyp prüfen.",
   remedy_score: "Die Kamera ist weit von ihrem Datenblatt entfernt: dem Qualitätsingenieur geben.",
 

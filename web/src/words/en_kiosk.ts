@@ -56,9 +56,10 @@ export const enKiosk = {
   guide_pose: (number: number) => `Pose ${number}`,
   guide_pose_taken: (number: number) => `Pose ${number}, taken. Take it again`,
   guide_pose_now: (number: number) => `Pose ${number}, asked for now`,
-  guide_accuracy: "Focal length so far",
-  guide_promised: (value: string) => `planned ± ${value}`,
+  guide_accuracy: "Accuracy",
   guide_accuracy_none: "after a few poses",
+  guide_accuracy_growing: "growing",
+  guide_accuracy_reached: "reached",
   guide_manual: "Press capture when the board lies in the dashed outline",
 
   figures_title: "Figures",
@@ -68,6 +69,11 @@ export const enKiosk = {
   figures_judged: "Judged",
   figures_waited: "Frame to state",
   figures_trip: "Round trip",
+  figures_focal: "Focal length",
+  figures_promised: (value: string) => `planned ${value}`,
+  figures_mapping: "Mapping error",
+  figures_mapping_of: (mean: string, worst: string, required: string) =>
+    `${mean} mean, ${worst} worst, ${required} required`,
   figures_problem: "Problem",
   figures_per_second: (value: string) => `${value} / s`,
 
@@ -113,6 +119,8 @@ export const enKiosk = {
   remedy_cross_check: "The pictures may be of two cameras: check the label, then calibrate again.",
   remedy_bias: "Check that the board is flat and clean, then calibrate again.",
   remedy_model: "The lens is not as declared: hand the camera to the quality engineer.",
+  remedy_extrinsics:
+    "The camera is not mounted as it should be, or the vehicle moved: call the quality engineer.",
   remedy_identity: "This may be another camera than declared: check the label and the camera type.",
   remedy_score: "The camera is far from its data sheet: hand it to the quality engineer.",
 

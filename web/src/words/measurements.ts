@@ -104,6 +104,21 @@ const NAMES: Readonly<Record<string, Name>> = {
     de: "Bilder einer anderen Seriennummer",
     zh: "属于其他序列号的图像",
   },
+  translation_sd_mm: { en: "sd of position", de: "Std.-Abw. Position", zh: "位置标准差" },
+  rotation_sd_mdeg: { en: "sd of direction", de: "Std.-Abw. Richtung", zh: "朝向标准差" },
+  mounting_off_mm: { en: "Position from nominal", de: "Position zum Nennwert", zh: "位置与标称之差" },
+  mounting_off_mdeg: { en: "Direction from nominal", de: "Richtung zum Nennwert", zh: "朝向与标称之差" },
+  extrinsics_rms_px: {
+    en: "RMS error of the fixed target",
+    de: "RMS-Fehler des festen Targets",
+    zh: "固定标定板 RMS 误差",
+  },
+  image_agreement_px: { en: "Agreement of pictures", de: "Übereinstimmung der Bilder", zh: "图像一致性" },
+  tilt_ambiguity: {
+    en: "Other tilt as likely",
+    de: "Andere Neigung so wahrscheinlich",
+    zh: "另一种倾斜的可能性",
+  },
   paper_score: { en: "Score S of the paper", de: "Gütezahl S der Vorlage", zh: "论文评分 S" },
   nominal_difference_px: { en: "Distance from nominal", de: "Abstand vom Nennwert", zh: "与标称的距离" },
 };

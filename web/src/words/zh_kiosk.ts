@@ -57,9 +57,10 @@ export const zhKiosk: KioskWords = {
   guide_pose: (number) => `位姿 ${number}`,
   guide_pose_taken: (number) => `位姿 ${number}，已采集。重新采集`,
   guide_pose_now: (number) => `位姿 ${number}，当前目标`,
-  guide_accuracy: "目前焦距",
-  guide_promised: (value) => `计划 ± ${value}`,
+  guide_accuracy: "精度",
   guide_accuracy_none: "采集几个位姿后显示",
+  guide_accuracy_growing: "提升中",
+  guide_accuracy_reached: "已达到",
   guide_manual: "标定板与虚线框重合时，按“采集”",
 
   figures_title: "数据",
@@ -69,6 +70,10 @@ export const zhKiosk: KioskWords = {
   figures_judged: "已判断",
   figures_waited: "帧到状态",
   figures_trip: "往返",
+  figures_focal: "焦距",
+  figures_promised: (value) => `计划 ${value}`,
+  figures_mapping: "映射误差",
+  figures_mapping_of: (mean, worst, required) => `平均 ${mean}，最大 ${worst}，要求 ${required}`,
   figures_problem: "问题",
   figures_per_second: (value) => `${value} / s`,
 
@@ -110,6 +115,7 @@ export const zhKiosk: KioskWords = {
   remedy_cross_check: "图像可能来自两台相机：检查标签，然后重新标定。",
   remedy_bias: "检查标定板是否平整、干净，然后重新标定。",
   remedy_model: "镜头与申报的不符：把相机交给质量工程师。",
+  remedy_extrinsics: "相机安装不正确，或车辆移动过：请联系质量工程师。",
   remedy_identity: "这可能不是申报的相机：检查标签和相机型号。",
   remedy_score: "相机与数据手册相差很大：交给质量工程师。",
 
