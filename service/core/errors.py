@@ -185,20 +185,6 @@ class RunAborted(Conflict):
     title = "The run was aborted"
 
 
-class FixtureMissing(Conflict):
-    """Pictures of a fixed target need a station that says where it stands."""
-
-    code = "fixture-missing"
-    title = "The run's station has no fixture"
-
-
-class FixtureChanged(Conflict):
-    """The station's fixture is another one than in the run's earlier pictures of it."""
-
-    code = "fixture-changed"
-    title = "The station's fixture was changed during the run"
-
-
 class DuplicateImage(Conflict):
     """The same image is in the run already."""
 

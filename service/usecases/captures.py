@@ -17,14 +17,13 @@ from sqlalchemy.orm import Session
 from service.core.errors import (
     DuplicateImage,
     Fact,
-    FixtureChanged,
-    FixtureMissing,
     NotFound,
     PoseIndexUnknown,
     PoseTaken,
     ValidationFailed,
 )
 from service.core.run import check_open
+from service.core.vision.fixture_problems import FixtureChanged, FixtureMissing
 from service.core.vision.target import parse_target
 from service.ports import BlobStore
 from service.storage.database import Database

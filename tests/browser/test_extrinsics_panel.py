@@ -1,0 +1,45 @@
+"""The camera's place in the vehicle on a run's page."""
+
+from pathlib import Path
+
+from playwright.sync_api import Page, expect
+
+from service.demo.customer import Customer
+from tests.api.rest.test_extrinsics import FIXTURE, PICTURE, T_VEHICLE_CAM, pose_json
+from tests.browser.chromium import Watch
+from tests.browser.serving import Serving
+from tests.plant import SKU, picture, pose_set, poses_json
+
+
+def finished_run(serving: Serving) -> str:
+    """The id of a run with a picture of the fixed target."""
+    customer = Customer.of(serving.url, serving.key)
+    with customer.http:
+        customer.describe_sku({**SKU, "code": "mounted", "mounting": pose_json(T_VEHICLE_CAM)})
+        made = customer.ask("POST", "/skus/mounted/revisions/1/pose-sets", json={"poses": poses_json()})
+        customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
+        customer.ask("POST", "/stations", json={"code": "fixed1", "name": "Fixed 1", "fixture": FIXTURE})
+        order = {"sku": "mounted", "serial": "VIN-PLACE", "station": "fixed1"}
+        run_id = str(customer.ask("POST", "/runs", json=order)["id"])
+        images = [(f"?pose_index={i}", picture(i)) for i in range(len(pose_set().poses))]
+        for query, content in [*images, ("?role=extrinsics", PICTURE)]:
+            files = {"image": ("image.png", content, "image/png")}
+            customer.ask("POST", f"/runs/{run_id}/captures{query}", files=files)
+        customer.ask("POST", f"/runs/{run_id}/finish")
+    return run_id
+
+
+def test_the_place_in_the_vehicle_is_shown_with_its_uncertainty(
+    page: Page, serving: Serving, watch: Watch, shots: Path
+) -> None:
+    run_id = finished_run(serving)
+    page.set_viewport_size({"width": 1600, "height": 1400})
+    page.goto(f"{serving.url}/#key={serving.key}&/runs/{run_id}")
+
+    panel = page.get_by_role("region", name="Place in the vehicle")
+
+    expect(panel.locator("tbody tr")).to_have_count(6)
+    expect(panel).to_contain_text(FIXTURE["target"])
+    expect(page.get_by_text("Position from nominal")).to_be_visible()
+    page.screenshot(path=shots / "run-extrinsics.png", full_page=True)
+    assert (watch.errors, watch.outside, watch.refused) == ([], [], [])
