@@ -24,6 +24,7 @@ LEAST_AREA_PX = 16.0  # of a cell, in square pixels
 LEAST_CONTRAST = 12.0  # grey levels between dark and bright in a cell
 WRONG_SHARE = 0.06  # of a marker's modules that may be read wrongly
 LEAST_VOTES = 2
+FRAME_SHARE = 0.9  # of a marker's outermost modules that are dark, whatever its dictionary
 READABLE_PX = 2.0  # of a module, from which on a marker that is there is read
 
 UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
@@ -40,53 +41,73 @@ class NamedCorners:
 
 @dataclass(frozen=True)
 class CodeBook:
-    """A board's markers as a grid shows them.
+    """A board's markers as a grid shows them, and what else of it every frame needs.
 
-    patterns (4, m, k): 1 for dark and -1 for bright modules, in a grid that 0 to 3 quarter turns make
-    upright; cells (m, 2): row and column of the cell that holds the marker; spots (k, 2): modules in a unit
-    cell.
+    patterns (4 m, b): the dark modules, eight to a byte, in a grid that 0 to 3 quarter turns make upright,
+    all markers for each turn; cells (m, 2): row and column of the cell that holds the marker; spots (k, 2):
+    modules in a unit cell. points (n, 2), m: the corners; edges (e, 2): see `CodedTarget`. evenness: the
+    smallest step between neighbouring corners over the largest.
     """
 
-    patterns: NDArray[np.float32]
+    patterns: NDArray[np.uint8]
     cells: NDArray[np.int64]
     spots: Array
+    points: Array
+    edges: NDArray[np.int64]
+    evenness: float
+
+    @property
+    def are_in_dark_cells(self) -> bool:
+        """Whether markers are in cells that are dark, as tags are, or in bright ones."""
+        return bool(self.cells[0].sum() % 2 == 0)
 
 
 @dataclass(frozen=True)
 class Reading:
-    """A grid that was read. corners: None where its markers do not decide; module_px: size of a module."""
+    """A grid that was read. corners: None where its markers do not decide; module_px: size of a module.
+
+    framed: cells with something bright in a dark frame, which a marker of any dictionary is.
+    """
 
     corners: NamedCorners | None
     module_px: float
+    framed: int
 
 
 def read_grid(image: NDArray[np.uint8], grid: CornerGrid, target: CodedTarget) -> Reading:
     """Return which corners of a board those of a grid in an image (h, w) are."""
     book = code_book(target)
-    cells, quads = _cells_of(grid.points)
+    cells, quads = _cells_of(grid, book)
     if not len(cells):
-        return Reading(None, 0.0)
+        return Reading(None, 0.0, 0)
     modules = np.sqrt(len(book.spots))
     share = float(np.ptp(book.spots[:, 0])) * modules / (modules - 1.0)
     module_px = float(np.sqrt(np.median(_areas(quads)))) * share / float(modules)
-    place = _elect(_read_cells(image, cells, quads, book), grid.points.shape[:2], book)
-    return Reading(None if place is None else _name(grid.points, place, target), module_px)
+    dark, is_clear = _modules(image, quads, book)
+    read = _match(cells[is_clear], dark[is_clear], book)
+    place = _elect(read, grid.points.shape[:2], book)
+    corners = None if place is None else _name(grid.points, place, target)
+    return Reading(corners, module_px, int(np.count_nonzero(_is_framed(dark) & is_clear)))
 
 
 @lru_cache(maxsize=8)
 def code_book(target: CodedTarget) -> CodeBook:
     """Return the code book of a board."""
-    corners = target.marker_corners
-    x, y = np.unique(target.object_points[:, 0]), np.unique(target.object_points[:, 1])
+    corners, points = target.marker_corners, target.object_points[:, :2]
+    x, y = np.unique(points[:, 0]), np.unique(points[:, 1])
+    steps = np.concatenate([np.diff(x), np.diff(y)])
     middle = corners.mean(axis=1)
     row, column = np.searchsorted(y, middle[:, 1]) - 1, np.searchsorted(x, middle[:, 0]) - 1
     inside = (row >= 0) & (row < len(y) - 1) & (column >= 0) & (column < len(x) - 1)
     upright = [_as_printed(target, int(marker)) for marker in np.flatnonzero(inside)]
-    patterns = np.array([[np.rot90(dark, -turn).ravel() for dark in upright] for turn in range(4)])
+    patterns = np.array([np.rot90(dark, -turn).ravel() for turn in range(4) for dark in upright])
     return CodeBook(
-        patterns=np.where(patterns, 1.0, -1.0).astype(np.float32),
+        patterns=np.packbits(patterns, axis=1),
         cells=np.stack([row, column], axis=-1)[inside].astype(np.int64),
         spots=_spots(target, len(upright[0]), float(x[1] - x[0])),
+        points=points,
+        edges=target.edges,
+        evenness=float(steps.min() / steps.max()),
     )
 
 
@@ -104,10 +125,13 @@ def _spots(target: CodedTarget, modules: int, cell_m: float) -> Array:
     return np.stack([np.tile(along, modules), np.repeat(along, modules)], axis=-1)
 
 
-def _cells_of(points: Array) -> tuple[NDArray[np.int64], Array]:
-    """Return row and column (c, 2) of cells with four corners, and these (c, 4, 2), clockwise."""
+def _cells_of(grid: CornerGrid, book: CodeBook) -> tuple[NDArray[np.int64], Array]:
+    """Return row and column (c, 2) of cells that may hold a marker, and their corners (c, 4, 2)."""
+    points = grid.points
     quads = np.stack([points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]], axis=2)
-    whole = ~np.isnan(quads).any(axis=(2, 3))
+    row, column = np.indices(quads.shape[:2])
+    is_dark = (row + column + grid.phase) % 2 == 0
+    whole = ~np.isnan(quads).any(axis=(2, 3)) & (is_dark == book.are_in_dark_cells)
     cells = np.argwhere(whole)
     found = quads[whole]
     large = _areas(found) > LEAST_AREA_PX
@@ -124,21 +148,33 @@ def _areas(quads: Array) -> Array:
     return np.asarray(0.5 * np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]))
 
 
-def _read_cells(
-    image: NDArray[np.uint8], cells: NDArray[np.int64], quads: Array, book: CodeBook
-) -> NDArray[np.int64]:
-    """Return what was read: row, column, turn and index in the book (r, 4)."""
+def _modules(
+    image: NDArray[np.uint8], quads: Array, book: CodeBook
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which modules (c, k) of cells are dark, and which cells (c,) tell dark from bright."""
     H = board_to_image(np.broadcast_to(UNIT, quads.shape), quads)
     at = map_points(H, np.broadcast_to(book.spots, (len(quads), *book.spots.shape)))
     level = sample_bilinear(image, at[..., 0], at[..., 1])
-    low, high = level.min(axis=1, keepdims=True), level.max(axis=1, keepdims=True)
-    signs = np.where(level < 0.5 * (low + high), 1.0, -1.0).astype(np.float32)
-    modules = level.shape[1]
-    wrong = 0.5 * (modules - signs @ book.patterns.reshape(-1, modules).T)
-    best = wrong.argmin(axis=1)
-    sure = (wrong.min(axis=1) <= WRONG_SHARE * modules) & ((high - low)[:, 0] > LEAST_CONTRAST)
-    turn, marker = np.divmod(best, len(book.cells))
+    low, high = level.min(axis=1), level.max(axis=1)
+    return level < 0.5 * (low + high)[:, None], high - low > LEAST_CONTRAST
+
+
+def _match(cells: NDArray[np.int64], dark: NDArray[np.bool_], book: CodeBook) -> NDArray[np.int64]:
+    """Return what cells with dark modules (c, k) say: row, column, turn and index in the book (r, 4)."""
+    packed = np.packbits(dark, axis=1)
+    wrong = np.bitwise_count(packed[:, None] ^ book.patterns).sum(axis=2, dtype=np.int64)
+    sure = wrong.min(axis=1) <= WRONG_SHARE * dark.shape[1]
+    turn, marker = np.divmod(wrong.argmin(axis=1), len(book.cells))
     return np.asarray(np.column_stack([cells, turn, marker])[sure], dtype=np.int64)
+
+
+def _is_framed(dark: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return which cells with dark modules (c, k) have a dark frame, and bright modules within."""
+    side = round(dark.shape[1] ** 0.5)
+    square = dark.reshape(-1, side, side)
+    inner = square[:, 1:-1, 1:-1].sum(axis=(1, 2))
+    frame = square.sum(axis=(1, 2)) - inner
+    return np.asarray((frame >= FRAME_SHARE * 4 * (side - 1)) & (inner < (side - 2) ** 2))
 
 
 def _elect(read: NDArray[np.int64], shape: tuple[int, ...], book: CodeBook) -> Place | None:

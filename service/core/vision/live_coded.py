@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from service.core.vision.coded import CodedTarget
 from service.core.vision.corner_grid import CornerGrid, keep_squares, link_corners, number_corners
 from service.core.vision.detection_coded import LEAST_CORNERS, LEAST_LINES
-from service.core.vision.grid_codes import READABLE_PX, NamedCorners, read_grid
+from service.core.vision.grid_codes import READABLE_PX, NamedCorners, Reading, code_book, read_grid
 from service.core.vision.live_choice import may_be_a_board
 from service.core.vision.live_corners import LiveWorkspace, find_live_corners, smooth_frame
 from service.core.vision.live_detected import LIVE_SCALE, BoardKind, LiveDetection
@@ -23,6 +23,7 @@ from service.core.vision.transforms import Array
 
 GRIDS = 3  # that are read, the one with most contrast first
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
+SURE_MARKERS = 4  # in frames, from which on a board has markers
 DISC_PX = 2
 TOGETHER = 0.5  # of a square: where one part of a board says that another one is
 STEP = 0.1  # of an edge, over which the scale across it is taken
@@ -34,21 +35,20 @@ def detect_live_coded(
     """Return what a grey frame at half size (h, w) shows of a board with markers."""
     blurred = smooth_frame(half, workspace)
     found = find_live_corners(blurred, workspace)
-    links = link_corners(found, _evenness(target))
+    links = link_corners(found, code_book(target).evenness)
     grids = number_corners(found, links, enough=target.columns * target.rows)
     squares = [keep_squares(grid) for grid in grids[:GRIDS]]
     readings = [read_grid(half, grid, target) for grid in squares if grid.points.size]
     named = [one.corners for one in readings if one.corners is not None and _spans(one.corners, target, 2)]
     if not named:
-        is_readable = any(reading.module_px >= READABLE_PX for reading in readings)
-        return _unnamed(half, squares, len(found), target, is_readable)
+        return _unnamed(half, squares, readings, len(found), target)
     corners = _put_together(named, target)
     seen = len(corners.ids)
     if not _is_enough(corners, target):
         return LiveDetection("partial", None, seen, None, float(cv2.mean(half)[0]))
     points, _ = refine_saddles(blurred, corners.points, np.full(seen, DISC_PX), iterations=2)
     look = _look_at(half, NamedCorners(corners.ids, points), target)
-    places = np.full((len(target.object_points), 2), np.nan)
+    places = np.full((target.rows * target.columns, 2), np.nan)
     places[corners.ids] = points * LIVE_SCALE + 0.5 * (LIVE_SCALE - 1)
     return LiveDetection(
         kind="present",
@@ -60,25 +60,24 @@ def detect_live_coded(
     )
 
 
-def _evenness(target: CodedTarget) -> float:
-    """Return the smallest step between neighbouring corners over the largest."""
-    steps = np.concatenate([np.diff(np.unique(target.object_points[:, axis])) for axis in (0, 1)])
-    return float(steps.min() / steps.max())
-
-
 def _unnamed(
     half: NDArray[np.uint8],
     grids: list[CornerGrid],
+    readings: list[Reading],
     corners_in_all: int,
     target: CodedTarget,
-    is_readable: bool,
 ) -> LiveDetection:
-    """Return what a frame shows in which no markers of the board were read."""
+    """Return what a frame shows in which the board's markers were not read.
+
+    Another board where markers of its size could have been; else perhaps a part of it, or one too far away.
+    """
     grid = max(grids, key=lambda one: int(one.known.sum()), default=CornerGrid(np.zeros((0, 0, 2)), 0))
     seen = int(grid.known.sum())
-    likely = seen >= PARTIAL_CORNERS and may_be_a_board(half, grid, corners_in_all, target)
+    framed = any(reading.framed >= SURE_MARKERS for reading in readings)
+    plain = seen >= PARTIAL_CORNERS and may_be_a_board(half, grid, corners_in_all, target)
     kind: BoardKind = "absent"
-    if likely:
+    if framed or plain:
+        is_readable = any(reading.module_px >= READABLE_PX for reading in readings)
         kind = "wrong" if is_readable else "partial"
     return LiveDetection(kind, None, seen, None, float(cv2.mean(half)[0]))
 
@@ -86,9 +85,11 @@ def _unnamed(
 def _put_together(parts: list[NamedCorners], target: CodedTarget) -> NamedCorners:
     """Return the largest part with the corners of others that lie where it says: no second board's."""
     largest = max(parts, key=lambda part: len(part.ids))
-    places = np.full((len(target.object_points), 2), np.nan)
+    if len(parts) == 1:
+        return largest
+    board = code_book(target).points
+    places = np.full(board.shape, np.nan)
     places[largest.ids] = largest.points
-    board = target.object_points[:, :2]
     H = _homography(board[largest.ids], largest.points)
     square_px = _square_px(H, board[largest.ids], target.square_m)
     for part in parts:
@@ -113,12 +114,13 @@ def _spans(corners: NamedCorners, target: CodedTarget, lines: int) -> bool:
 
 def _look_at(image: NDArray[np.uint8], corners: NamedCorners, target: CodedTarget) -> Look:
     """Return how the edges between corners that are seen look."""
-    places = np.full((len(target.object_points), 2), np.nan)
+    book = code_book(target)
+    places = np.full(book.points.shape, np.nan)
     places[corners.ids] = corners.points
-    pairs = places[target.edges]
+    pairs = places[book.edges]
     seen = ~np.isnan(pairs).any(axis=(1, 2))
-    ends, board = pairs[seen], target.object_points[target.edges[seen], :2]
-    H = _homography(target.object_points[corners.ids, :2], corners.points)
+    ends, board = pairs[seen], book.points[book.edges[seen]]
+    H = _homography(book.points[corners.ids], corners.points)
     normal, px_per_m = _across(H, ends, board)
     return look_along_edges(
         image, ends.mean(axis=1), normal, target.dark_m * px_per_m, target.plain_m * px_per_m
