@@ -19,6 +19,7 @@ from service.core.quality.evidence import Expectation, NamedDetection, Refusal
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.detection import detect_target
+from service.core.vision.target import Target, parse_target
 from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array, Pose
@@ -34,11 +35,13 @@ Fault = Callable[[int], Outcome]
 
 NOMINAL = nominal_camera(PAPER_SKUS[0])
 BOARD = Chessboard(9, 6, 0.025)
+CODED = parse_target("charuco:8x5:25mm:18mm:4x4_250")
 SPACE = PoseSpace()
 FISHEYE = Intrinsics.from_parameters(
     "kannala_brandt4", {"fx": 400.0, "fy": 400.0, "cx": 639.5, "cy": 399.5, "k1": -0.02}, (1280, 800)
 )
 COUNT, SEED = 12, 1
+FEW = 4  # pictures of a coded board, each of which is refused by itself
 UNITS = 5  # cameras whose pictures are rendered; a seed takes one of them
 OTHER_FOCAL = 1.015  # of a SKU that is easily taken for this one
 
@@ -82,7 +85,7 @@ def _photograph(camera: Intrinsics, rng: np.random.Generator, gain: float = 1.0)
     return [capture.image for capture in take_captures(prepared, poses(), HAND, rng)]
 
 
-def judge_pictures(images: Sequence[Image], target: Chessboard = BOARD) -> Outcome:
+def judge_pictures(images: Sequence[Image], target: Target = BOARD) -> Outcome:
     """Detect and judge as the service does."""
     views, refused, answers = [], [], []
     for i, image in enumerate(images):
@@ -173,7 +176,15 @@ def mirrored_view(seed: int) -> Outcome:
 
 
 def mirrored_all(seed: int) -> Outcome:
-    """All pictures are mirrored."""
+    """All pictures of a coded board are mirrored."""
+    rng = np.random.default_rng(seed)
+    some = sample_poses(SPACE, NOMINAL, CODED, FEW, seed)
+    prepared = prepare(production_scene(draw_camera(NOMINAL, Tolerance(), rng), CODED, SEED))
+    return judge_pictures([_mirrored(prepared.render(some.pose(i), rng)) for i in range(FEW)], CODED)
+
+
+def mirrored_plain(seed: int) -> Outcome:
+    """All pictures of a chessboard are mirrored."""
     return judge_pictures([_mirrored(image) for image in pictures(seed % UNITS)])
 
 
@@ -295,7 +306,10 @@ CASES = {
     "mirrored_view": Case(
         mirrored_view, frozenset({"match_px", "missing_poses", "worst_view_ratio", "facing"})
     ),
-    "mirrored_all": Case(mirrored_all, frozenset({"match_px", "missing_poses", "facing", "centre_off_px"})),
+    "mirrored_all": Case(mirrored_all, frozenset({"wrong-target"})),
+    "mirrored_plain": Case(
+        mirrored_plain, frozenset({"match_px", "missing_poses", "facing", "centre_off_px"})
+    ),
     "blur": Case(blur, frozenset({"edge_width_px"})),
     "motion_blur": Case(motion_blur, frozenset({"edge_width_px"})),
     "decentred": Case(decentred, frozenset({"centre_off_px"})),

@@ -37,6 +37,10 @@ def test_the_rms_alone_would_pass_most_of_them() -> None:
 
 
 def test_every_case_of_the_fault_table_is_named_as_agreed() -> None:
-    assert {"saturated", "wrong_board", "mirrored_view", "mirrored_all", "blur", "motion_blur"} | set(
-        QUICK
-    ) == set(CASES)
+    drawn = {"wrong_board", "mirrored_view", "mirrored_all", "mirrored_plain", "blur", "motion_blur"}
+    assert {"saturated"} | drawn | set(QUICK) == set(CASES)
+
+
+def test_a_run_with_a_mirrored_coded_board_is_refused_for_that() -> None:
+    case = CASES["mirrored_all"]
+    assert reasons_of(case.fault(0)) & case.reasons
