@@ -97,7 +97,11 @@ def build_parser() -> argparse.ArgumentParser:
 
 def _add_calibrate(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", type=Path, help="folder with the images of one camera")
-    parser.add_argument("--target", help="such as chessboard:9x6:25mm (inner corners); by default the SKU's")
+    parser.add_argument(
+        "--target",
+        help="chessboard:9x6:25mm, charuco:11x8:25mm:18mm:4x4_250 (both by inner corners), "
+        "aprilgrid:6x6:24mm:0.3 or circles:4x11:20mm:10mm; by default the SKU's",
+    )
     parser.add_argument("--lens", help=f"{', '.join(LENSES)}; by default the SKU's, else pinhole5")
     parser.add_argument("--fix", metavar="NAMES", help="parameters that are not estimated, such as k3,p1,p2")
     parser.add_argument(

@@ -106,7 +106,7 @@ def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -
     """Return the open run of a serial at a station; opened where there is none.
 
     A run that was ordered without a station becomes this one's. Raises SerialInvalid, NotFound, OtherSkuOpen,
-    RevisionNotPublished, PoseSetNotPublished.
+    RevisionNotPublished, PoseSetNotPublished, TargetNotGuided.
     """
     station = get_station(session, code)
     # Two kiosks that scan the same serial at the same moment must not open two runs.
@@ -144,8 +144,7 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
             run=f"/api/v1/runs/{run_id}",
         )
     revision = session.get_one(SkuRevisionRow, run.sku_revision_id)
-    document = SkuDocument.model_validate(revision.document).to_revision()
-    check_guided(document.target)
+    document = _guided_revision(revision)
     query = select(CaptureRow.pose_index).where(CaptureRow.run_id == run_id).order_by(CaptureRow.number)
     return GuidedRun(
         id=run.id,
@@ -182,7 +181,16 @@ def _open(session: Session, station: StationRow, serial: str, wish: Wish, *, who
             "publish one.",
             sku=wish.sku,
         )
+    run = session.get_one(RunRow, opened.id)
+    _guided_revision(session.get_one(SkuRevisionRow, run.sku_revision_id))
     return opened.id
+
+
+def _guided_revision(row: SkuRevisionRow) -> Revision:
+    """Return what a revision says; raises TargetNotGuided."""
+    revision = SkuDocument.model_validate(row.document).to_revision()
+    check_guided(revision.target)
+    return revision
 
 
 def _purpose(session: Session, station: StationRow, serial: str, wish: Wish) -> Purpose:

@@ -195,7 +195,9 @@ class SkuDocument(Document):
     )
     tolerance: ToleranceDocument = ToleranceDocument()
     target: str = Field(
-        max_length=60, description="Pattern, for example chessboard:9x6:25mm (inner corners)."
+        max_length=60,
+        description="Pattern: chessboard:9x6:25mm or charuco:11x8:25mm:18mm:4x4_250 (inner corners), "
+        "aprilgrid:6x6:24mm:0.3 (tags), circles:4x11:20mm:10mm (dots in a row x rows).",
     )
     pose_count: Annotated[int, Field(ge=3, le=100)] = 12
     pose_space: PoseSpaceDocument = PoseSpaceDocument()

@@ -14,7 +14,7 @@ from service.core.errors import FolderUnusable, IntrinsicsInvalid, TooFewViews
 from service.core.quality.gates import Verdict
 from service.core.vision.camera import LENSES
 from service.core.vision.target import parse_target
-from service.core.vision.transforms import stack_poses
+from service.core.vision.transforms import Pose, stack_poses
 from service.simulator.renderer import prepare
 from service.simulator.scene import production_scene
 from service.usecases.folder_calibration import FolderCalibration, calibrate_folder, list_images
@@ -62,6 +62,25 @@ def test_a_rendered_camera_is_found_within_its_uncertainty(calibrated: FolderCal
 def test_images_come_in_the_order_people_count(calibrated: FolderCalibration) -> None:
     assert [image.name for image in calibrated.images] == [f"{i}.png" for i in range(len(POSES))]
     assert all(image.status == "used" and image.rms_px for image in calibrated.images)
+
+
+def test_a_folder_of_parts_of_a_coded_board_is_calibrated(tmp_path: Path) -> None:
+    board = parse_target("aprilgrid:5x4:32mm:0.3")
+    rng = np.random.default_rng(8)
+    scene = prepare(production_scene(CAMERA, board, seed=8))
+    for i, pose in enumerate(POSES):
+        nearer = Pose(pose.rvec, pose.tvec - pose.rotation @ (board.centre - BOARD.centre))
+        assert cv2.imwrite(str(tmp_path / f"{i}.png"), scene.render(nearer, rng))
+
+    judged = calibrate_folder(tmp_path, board, "pinhole5").judged
+
+    assert judged.verdict is not Verdict.FAIL
+    seen = [len(view.detection.corner_ids) for view in judged.views]
+    assert len(seen) == len(POSES)
+    assert min(seen) < 80 == max(seen)
+    for name in ("fx", "fy", "cx", "cy"):
+        off = abs(judged.result.intrinsics.parameters[name] - CAMERA.parameters[name])
+        assert off < 4.0 * judged.result.sd[name], name
 
 
 def test_a_sku_adds_its_gates(rendered: Path) -> None:

@@ -137,3 +137,21 @@ def test_blur_shows_as_wide_edges_or_hides_the_markers(spec: str) -> None:
         assert detect_target(blurred, parse_target(spec)).sharpness.edge_width_px > 3.5
     except TargetNotVisible as refused:
         assert "sharp" in refused.detail  # noqa: PT017
+
+
+@pytest.mark.parametrize("legacy", [False, True])
+def test_opencvs_own_board_is_found_and_its_legacy_pattern_refused(*, legacy: bool) -> None:
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_250)
+    board = cv2.aruco.CharucoBoard((10, 6), 0.025, 0.018, dictionary)
+    board.setLegacyPattern(legacy)
+    image = np.full((600, 900), 255, np.uint8)
+    image[60:540, 40:840] = board.generateImage((800, 480))
+    declared = parse_target("charuco:9x5:25mm:18mm:4x4_250")
+    if legacy:
+        with pytest.raises(WrongTarget, match="do not lie"):
+            detect_target(image, declared)
+        return
+    found = detect_target(image, declared)
+    wanted = np.array(board.getChessboardCorners())[:, :2] / 0.025 * 80 + [39.5, 59.5]
+    assert found.corner_ids.tolist() == list(range(45))
+    np.testing.assert_allclose(found.image_points, wanted, atol=0.6)

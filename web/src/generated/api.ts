@@ -729,7 +729,9 @@ export interface SkuDocument {
   /** Field of view of a camera whose intrinsics are not known yet. */
   data_sheet?: DataSheetDocument | null;
   tolerance?: ToleranceDocument;
-  /** Pattern, for example chessboard:9x6:25mm (inner corners). */
+  /**
+   * Pattern: chessboard:9x6:25mm or charuco:11x8:25mm:18mm:4x4_250 (inner corners), aprilgrid:6x6:24mm:0.3 (tags), circles:4x11:20mm:10mm (dots in a row x rows).
+   */
   target: string;
   pose_count?: number;
   pose_space?: PoseSpaceDocument;
