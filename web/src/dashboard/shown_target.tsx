@@ -26,6 +26,7 @@ export function ShownTarget({ pattern, density, onClose }: Props): JSX.Element {
   const perMm = density * factor;
   useEffect(() => dialog.current?.showModal(), []);
   useFullScreen(onClose);
+  const fits = room === null || placePattern(pattern, room, 1000 * perMm) !== null;
   return (
     <dialog
       class="shown-target"
@@ -34,12 +35,17 @@ export function ShownTarget({ pattern, density, onClose }: Props): JSX.Element {
       onClose={onClose}
     >
       <Ground pattern={pattern} perMm={perMm} onRoom={setRoom} />
-      {room !== null && (
+      {room !== null && !fits && (
         <div class="shown-too-large">
           <TooLarge pattern={pattern} density={perMm} screen={room} />
         </div>
       )}
-      <Caption pattern={pattern} factor={factor} density={density} onClose={onClose} />
+      <div class="shown-caption">
+        {fits && <Caption pattern={pattern} factor={factor} density={density} />}
+        <button type="button" onClick={onClose}>
+          {words.value.show_close}
+        </button>
+      </div>
     </dialog>
   );
 }
@@ -105,15 +111,15 @@ interface CaptionProps {
   pattern: TargetPattern;
   factor: number;
   density: number;
-  onClose: () => void;
 }
 
-function Caption({ pattern, factor, density, onClose }: CaptionProps): JSX.Element {
+/** What to declare, and how to check it. */
+function Caption({ pattern, factor, density }: CaptionProps): JSX.Element {
   const say = words.value;
   const millimetres = (lengths: readonly number[]): string =>
     withUnit(lengths.map((length) => fixed(1000 * length * factor, 2)).join(" × "), "mm");
   return (
-    <div class="shown-caption">
+    <>
       <span>
         {say.show_declare} <b>{scaledSpec(pattern.spec, factor)}</b>
       </span>
@@ -122,9 +128,6 @@ function Caption({ pattern, factor, density, onClose }: CaptionProps): JSX.Eleme
         {say.show_over_all} {millimetres(pattern.size_m)}
       </span>
       <span class="shown-density">{say.show_density(fixed(density, 3), plain(window.devicePixelRatio))}</span>
-      <button type="button" onClick={onClose}>
-        {say.show_close}
-      </button>
-    </div>
+    </>
   );
 }
