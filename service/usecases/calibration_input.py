@@ -17,6 +17,7 @@ from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.run import Purpose
 from service.core.vision.detection import Detection
 from service.storage.models import CaptureRow, PoseSetRow, RunRow, SkuRevisionRow
+from service.usecases.board_in_use import BoardInUse, load_board
 from service.usecases.identity import load_identity
 from service.usecases.observation import pose_from_json, sharpness_from_json
 from service.usecases.sku_document import Revision, SkuDocument
@@ -29,7 +30,7 @@ class CalibrationInput:
     """The captures of a run in their order, what was detected in them, and what the SKU says.
 
     identity: names what its camera is told from others by, as it is stored with the result; None for results
-    of before.
+    of before. board: the plate, where its shape is known.
     """
 
     run_id: UUID
@@ -38,6 +39,7 @@ class CalibrationInput:
     revision: Revision
     expectation: Expectation
     identity: JsonObject | None
+    board: BoardInUse | None
 
 
 def load_input(session: Session, run: RunRow) -> CalibrationInput:
@@ -63,7 +65,13 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
     )
     ids = tuple(capture.id for capture in captures)
     return CalibrationInput(
-        run.id, ids, tuple(map(_detection, captures)), revision, expectation, identity.reference
+        run_id=run.id,
+        capture_ids=ids,
+        detections=tuple(map(_detection, captures)),
+        revision=revision,
+        expectation=expectation,
+        identity=identity.reference,
+        board=load_board(session, run, revision.target),
     )
 
 
@@ -76,6 +84,7 @@ def calibrate(source: CalibrationInput) -> Judged:
         revision.intrinsics.lens,
         source.expectation,
         fixed=revision.fixed,
+        board=None if source.board is None else source.board.corners,
     )
 
 

@@ -32,6 +32,7 @@ class ResultView:
     views: list[dict[str, Any]]
     starts: list[dict[str, Any]]
     agreement_px: float | None
+    board_shape: dict[str, Any] | None
     versions: dict[str, str]
     created_at: datetime
 
@@ -80,6 +81,7 @@ def _view(session: Session, row: CalibrationRow) -> ResultView:
         views=document["views"],
         starts=document["starts"],
         agreement_px=document["agreement_px"],
+        board_shape=document.get("board_shape"),
         versions=row.versions,
         created_at=row.created_at,
     )

@@ -101,9 +101,18 @@ EXAMPLE: JsonValue = {
     "views": [],
     "starts": [{"name": "nominal", "rms_px": 0.117, "iterations": 6, "converged": True}],
     "agreement_px": 1e-9,
+    "board_shape": None,
     "versions": {"service": "0.1.0", "opencv": "5.0.0"},
     "created_at": "2026-11-22T07:32:33.574474Z",
 }
+
+
+class UsedShape(Answer):
+    """The certified shape of a board with which a run was solved."""
+
+    id: UUID
+    target: str | None = Field(description="Serial of the board.")
+    version: int
 
 
 class Result(Answer):
@@ -127,6 +136,9 @@ class Result(Answer):
     starts: list[Start] = Field(description="Where the solver started from, and what it reached.")
     agreement_px: float | None = Field(
         description="Largest difference between the starts; null: one of them failed."
+    )
+    board_shape: UsedShape | None = Field(
+        description="Shape of the board that the solve took; null: the board was taken for flat."
     )
     versions: dict[str, str]
     created_at: datetime

@@ -36,6 +36,65 @@ export interface BoardPose {
   tvec: [number, number, number];
 }
 
+/** Where the corners of a board are, against its pattern; learnt from runs. */
+export interface BoardShape {
+  id: string;
+  target_id: string;
+  version: number;
+  state: ShapeState;
+  /** From how many it was learnt. */
+  runs: number;
+  /** Height, peak to peak. */
+  bend_mm: number;
+  /** Farthest that a corner is from its place within the plane. */
+  in_plane_mm: number;
+  certainty: ShapeCertainty;
+  /** Noise of the corners when the board is taken for flat. */
+  sigma_flat_px: number;
+  /** Noise of the corners with this shape. */
+  sigma_px: number;
+  /** From the shape that was certified when it was learnt. */
+  drift: Drift | null;
+  created_at: string;
+  created_by: string;
+  /** From when on solves use it. */
+  certified_at: string | null;
+  certified_by: string | null;
+  retired_at: string | null;
+  retired_by: string | null;
+}
+
+/** A shape with its corners in the order of the pattern, x y z, and the runs behind it. */
+export interface BoardShapeDetail {
+  id: string;
+  target_id: string;
+  version: number;
+  state: ShapeState;
+  /** From how many it was learnt. */
+  runs: number;
+  /** Height, peak to peak. */
+  bend_mm: number;
+  /** Farthest that a corner is from its place within the plane. */
+  in_plane_mm: number;
+  certainty: ShapeCertainty;
+  /** Noise of the corners when the board is taken for flat. */
+  sigma_flat_px: number;
+  /** Noise of the corners with this shape. */
+  sigma_px: number;
+  /** From the shape that was certified when it was learnt. */
+  drift: Drift | null;
+  created_at: string;
+  created_by: string;
+  /** From when on solves use it. */
+  certified_at: string | null;
+  certified_by: string | null;
+  retired_at: string | null;
+  retired_by: string | null;
+  deviations_mm: [number, number, number][];
+  sd_mm: [number, number, number][];
+  run_ids: string[];
+}
+
 /** Room that a fixture takes: two opposite corners in the camera frame (x right, y down, z away), m. */
 export interface BoxDocument {
   low_m: [number, number, number];
@@ -96,6 +155,24 @@ export interface DataSheetDocument {
   vfov_deg?: number | null;
 }
 
+/** How far a learnt shape is from the certified one. */
+export interface Drift {
+  /** `near` from 80 % of the limit on, `over` beyond it. */
+  state: DriftState;
+  /** Farthest that a corner has moved. */
+  worst_mm: number;
+  rms_mm: number;
+  limit_mm: number;
+  /** What the focal length is off by with the certified shape. */
+  focal_px: number;
+  /** And the map of the working zone, root of the mean square. */
+  mapping_px: number;
+  measured_at?: string | null;
+}
+
+/** What is said about a plate's drift. */
+export type DriftState = "steady" | "near" | "over";
+
 /** A measurement that failed, and in how many of the runs. */
 export interface FailedGate {
   gate: string;
@@ -139,6 +216,11 @@ export type JsonValue = unknown;
 
 /** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
 export type Language = "en" | "de" | "zh";
+
+/** From how many of the board's last runs to learn. */
+export interface LearnShape {
+  runs?: number;
+}
 
 /** A limit of a gate as it is in force. */
 export interface Limit {
@@ -254,6 +336,8 @@ export interface NewTarget {
   serial?: string | null;
   /** Pattern with inner corners and the side of a square. */
   spec: string;
+  /** How far a corner may move from the certified shape. */
+  drift_limit_mm?: number;
 }
 
 /** How a run ended. The verdict on the camera is another thing: only a completed run has one. */
@@ -261,6 +345,12 @@ export type Outcome = "COMPLETED" | "ERROR" | "ABORTED" | "TIMEOUT";
 
 export interface PageApiKey {
   items: ApiKey[];
+  /** Give it as `cursor` to go on; null: this was the last part. */
+  next_cursor: string | null;
+}
+
+export interface PageBoardShape {
+  items: BoardShape[];
   /** Give it as `cursor` to go on; null: this was the last part. */
   next_cursor: string | null;
 }
@@ -595,6 +685,8 @@ export interface Result {
   starts: Start[];
   /** Largest difference between the starts; null: one of them failed. */
   agreement_px: number | null;
+  /** Shape of the board that the solve took; null: the board was taken for flat. */
+  board_shape: UsedShape | null;
   versions: Record<string, string>;
   created_at: string;
 }
@@ -719,6 +811,19 @@ export interface RunSummary {
   finished_at: string | null;
 }
 
+/** Standard deviations that every camera solved with the shape has in common; more runs make them less. */
+export interface ShapeCertainty {
+  /** Of the corners themselves, root of the mean square. */
+  corner_mm: number;
+  focal_px: number;
+  centre_px: number;
+  /** Of the map of the working zone. */
+  mapping_px: number;
+}
+
+/** Life of a board's shape: learnt, used by the solves of its stations, replaced. */
+export type ShapeState = "draft" | "certified" | "retired";
+
 /** Widths of the board's edges, px; by image quadrant tl, tr, br, bl (null: too few edges). */
 export interface Sharpness {
   edge_width_px: number | null;
@@ -821,7 +926,7 @@ export interface StationChange {
   language?: Language | null;
 }
 
-/** A station with its newest open run and its newest finished one. */
+/** A station with its newest open run, its newest finished one, and how its board has drifted. */
 export interface StationStanding {
   code: string;
   name: string;
@@ -830,6 +935,8 @@ export interface StationStanding {
   language: Language | null;
   open_run: RunSummary | null;
   last_run: RunSummary | null;
+  /** Of the board's newest shape from the certified one; null: none was learnt since. */
+  board_drift: Drift | null;
 }
 
 /** A board. */
@@ -837,7 +944,21 @@ export interface Target {
   id: string;
   serial: string | null;
   spec: string;
+  drift_limit_mm: number;
   created_at: string;
+}
+
+/** A board with the shape that solves use, and how far its newest shape is from that. */
+export interface TargetDetail {
+  id: string;
+  serial: string | null;
+  spec: string;
+  drift_limit_mm: number;
+  created_at: string;
+  /** Null: solves take the board for flat. */
+  certified_shape: BoardShape | null;
+  /** Null: nothing was learnt since the shape was certified. */
+  drift: Drift | null;
 }
 
 /** How far cameras differ from the nominal: half widths. What is not given takes the service's default. */
@@ -846,6 +967,14 @@ export interface ToleranceDocument {
   aspect_share?: number | null;
   centre_px?: number | null;
   coefficients?: Record<string, number> | null;
+}
+
+/** The certified shape of a board with which a run was solved. */
+export interface UsedShape {
+  id: string;
+  /** Serial of the board. */
+  target: string | null;
+  version: number;
 }
 
 /** The runs of one serial, newest first, and the result of the latest finished one. */
