@@ -33,6 +33,7 @@ from service.storage.database import Database
 from service.storage.migration import check_at_head, upgrade
 from service.storage.words import FrameOrigin
 from service.usecases.access import create_first_key
+from service.usecases.board_learning import LEARN_BOARD_SHAPE, learn_board_shape_job
 from service.usecases.frame_address import origin_of
 from service.usecases.guide import Plant
 from service.usecases.guide_camera import Camera, CameraOpener
@@ -105,7 +106,10 @@ def create_jobs(settings: Settings, database: Database, clock: Clock) -> ThreadJ
     return ThreadJobs(
         database,
         clock,
-        {PLAN_POSE_SET: plan_pose_set_job(database)},
+        {
+            PLAN_POSE_SET: plan_pose_set_job(database),
+            LEARN_BOARD_SHAPE: learn_board_shape_job(database),
+        },
         threads=settings.jobs.threads,
         poll_s=settings.jobs.poll_s,
         stale_s=settings.jobs.stale_s,

@@ -16,6 +16,7 @@ from service.log import configure_logging
 from service.settings import Settings
 from service.storage.database import Database
 from service.storage.migration import check_at_head
+from service.usecases.board_learning import LEARN_BOARD_SHAPE, learn_board_shape_job
 from service.usecases.planning import PLAN_POSE_SET, plan_pose_set_job
 
 log = logging.getLogger(__name__)
@@ -30,7 +31,10 @@ def run_worker(settings: Settings, stop: threading.Event) -> None:
         jobs = ThreadJobs(
             database,
             SystemClock(),
-            {PLAN_POSE_SET: plan_pose_set_job(database)},
+            {
+                PLAN_POSE_SET: plan_pose_set_job(database),
+                LEARN_BOARD_SHAPE: learn_board_shape_job(database),
+            },
             threads=settings.jobs.threads,
             poll_s=settings.jobs.poll_s,
             stale_s=settings.jobs.stale_s,

@@ -10,6 +10,7 @@ from service.api import docs_page, problem_pages, static
 from service.api.openapi import DESCRIPTION, PROBLEM_ANSWERS, TAGS
 from service.api.problems import install_problem_handlers
 from service.api.rest import (
+    board_shapes,
     captures,
     certificates,
     exports,
@@ -66,6 +67,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
         pose_set_review,
         jobs,
         targets,
+        board_shapes,
         stations,
         statistics,
         keys,

@@ -36,6 +36,10 @@ CONSTRAINT_TO_ERROR: Mapping[str, tuple[type[Conflict], str]] = {
         "Someone added this revision just now. Send yours again.",
     ),
     "uq_station_code": (AlreadyExists, "There is a station with this code. Choose another code."),
+    "uq_board_shape_target_id_version": (
+        AlreadyExists,
+        "Another shape of this board was learnt just now. Learn again if you need a newer one.",
+    ),
     "uq_capture_run_id_sha256": (DuplicateImage, "The run already holds this very image. Take another one."),
     "uq_capture_run_id_number": (
         AlreadyExists,

@@ -58,6 +58,8 @@ class TargetRow(Row):
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     serial: Mapped[str | None] = mapped_column(unique=True, default=None)
     spec: Mapped[str]
+    # How far a corner may move from the certified shape.
+    drift_limit_mm: Mapped[float] = mapped_column(default=0.1, server_default="0.1")
     created_at: Mapped[datetime]
 
 
@@ -166,12 +168,15 @@ class RunRow(Row):
         Index(None, "serial", "created_at", "id"),
         Index(None, "created_at", "id"),
         Index(None, "station_id", "state", "created_at", "id"),
+        Index(None, "target_id", "state", "created_at", "id"),
     )
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     sku_revision_id: Mapped[UUID] = mapped_column(refers_to("sku_revision.id"))
     pose_set_id: Mapped[UUID | None] = mapped_column(refers_to("pose_set.id"), default=None)
     station_id: Mapped[UUID | None] = mapped_column(refers_to("station.id"), default=None)
+    # The board that stood at the station when the run was opened.
+    target_id: Mapped[UUID | None] = mapped_column(refers_to("target.id"), default=None)
     serial: Mapped[str]
     purpose: Mapped[Purpose] = mapped_column(word(Purpose, "purpose"), default=Purpose.PRODUCTION)
     state: Mapped[RunState] = mapped_column(word(RunState, "state"), default=RunState.OPEN)

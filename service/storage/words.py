@@ -11,6 +11,14 @@ class Publication(StrEnum):
     RETIRED = "retired"
 
 
+class ShapeState(StrEnum):
+    """Life of a board's shape: learnt, used by the solves of its stations, replaced."""
+
+    DRAFT = "draft"
+    CERTIFIED = "certified"
+    RETIRED = "retired"
+
+
 class JobState(StrEnum):
     """Life of a job."""
 

@@ -19,6 +19,7 @@ from service.core.vision.detection import Detection
 from service.core.vision.target import parse_target
 from service.storage.models import CaptureRow, RunRow, SkuRevisionRow
 from service.storage.words import CaptureRole
+from service.usecases.board_in_use import BoardInUse, load_board
 from service.usecases.fixture_document import FixtureDocument
 from service.usecases.identity import load_identity
 from service.usecases.observation import JsonObject, sharpness_from_json
@@ -31,7 +32,8 @@ class CalibrationInput:
     """The captures of a run in their order, what was detected in them, and what the SKU says.
 
     capture_ids: of the detections, then of the pictures of the fixed target. identity: names what its camera
-    is told from others by, as it is stored with the result; None for results of before.
+    is told from others by, as it is stored with the result; None for results of before. board: the plate,
+    where its shape is known.
     """
 
     run_id: UUID
@@ -42,6 +44,7 @@ class CalibrationInput:
     identity: JsonObject | None
     fixed_target: FixedTargetViews | None
     fixture: JsonObject | None
+    board: BoardInUse | None
 
 
 def load_input(session: Session, run: RunRow) -> CalibrationInput:
@@ -79,6 +82,7 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
         revision=revision,
         expectation=expectation,
         identity=identity.reference,
+        board=load_board(session, run, revision.target),
         fixed_target=_fixed_target(of_fixture) if of_fixture else None,
         fixture=of_fixture[0].fixture if of_fixture else None,
     )
@@ -102,6 +106,7 @@ def calibrate(source: CalibrationInput) -> Judged:
         source.expectation,
         fixed=revision.fixed,
         fixed_target=source.fixed_target,
+        board=None if source.board is None else source.board.corners,
     )
 
 

@@ -20,6 +20,7 @@ from service.storage import outbox
 from service.storage.database import Database
 from service.storage.models import CalibrationRow, CaptureRow, MeasurementRow, RunRow, SkuRevisionRow, SkuRow
 from service.usecases.audit import record
+from service.usecases.board_learning import watch_board
 from service.usecases.calibration_input import CalibrationInput, calibrate, load_input
 from service.usecases.captures import lock_open_run
 from service.usecases.certificate import issue_certificate
@@ -97,6 +98,7 @@ def _store(
     )
     session.flush()
     admit_unit(session, run, row, now)
+    watch_board(session, run, now)
     outbox.append(session, "run.finished", f"vehicle:{run.serial}", _announcement(session, run, row), now)
     return row
 
@@ -105,7 +107,11 @@ def _document(source: CalibrationInput, judged: Judged) -> JsonObject:
     fixed = () if source.fixed_target is None else source.fixed_target.views
     names = [detection.name for detection in (*source.detections, *fixed)]
     document = result_document(judged, dict(zip(names, source.capture_ids, strict=True)), source.fixture)
-    return document if source.identity is None else {**document, "identity": source.identity}
+    if source.identity is not None:
+        document["identity"] = source.identity
+    if source.board is not None:
+        document["board_shape"] = source.board.reference
+    return document
 
 
 def _measurements(calibration_id: UUID, measurements: Iterable[Measurement]) -> list[MeasurementRow]:

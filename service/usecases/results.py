@@ -34,6 +34,7 @@ class ResultView:
     agreement_px: float | None
     early_finish: dict[str, Any] | None
     extrinsics: dict[str, Any] | None
+    board_shape: dict[str, Any] | None
     versions: dict[str, str]
     created_at: datetime
 
@@ -84,6 +85,7 @@ def _view(session: Session, row: CalibrationRow) -> ResultView:
         agreement_px=document["agreement_px"],
         early_finish=document.get("early_finish"),
         extrinsics=document.get("extrinsics"),
+        board_shape=document.get("board_shape"),
         versions=row.versions,
         created_at=row.created_at,
     )

@@ -82,10 +82,12 @@ def open_run(session: Session, order: Order, who: str, now: datetime) -> RunView
             sku=order.sku,
             revision=revision.number,
         )
+    station = None if order.station is None else get_station(session, order.station)
     row = RunRow(
         sku_revision_id=revision.id,
         pose_set_id=pose_set_id,
-        station_id=None if order.station is None else get_station(session, order.station).id,
+        station_id=None if station is None else station.id,
+        target_id=None if station is None else station.target_id,
         serial=serial,
         purpose=order.purpose,
         created_by=who,

@@ -24,6 +24,7 @@ from service.storage.models import (
     StationRow,
 )
 from service.storage.words import Language
+from service.usecases.board_shapes import present_drift
 from service.usecases.paging import PageRequest, Part
 from service.usecases.run_filter import RunFilter, is_first_of_serial
 from service.usecases.runs import RunView, view_runs
@@ -68,7 +69,7 @@ class YieldView:
 
 @dataclass(frozen=True)
 class StationStanding:
-    """A station with its newest open run and its newest finished one."""
+    """A station with its newest open run, its newest finished one, and how its board has drifted."""
 
     code: str
     name: str
@@ -76,6 +77,7 @@ class StationStanding:
     language: Language | None
     open_run: RunView | None
     last_run: RunView | None
+    board_drift: dict[str, Any] | None
 
 
 def read_yield(
@@ -93,9 +95,16 @@ def list_station_standings(session: Session, page: PageRequest) -> Part[StationS
     part = list_stations(session, page)
     opened = _newest(session, [row.id for row in part.items], RunState.OPEN)
     finished = _newest(session, [row.id for row in part.items], RunState.FINISHED)
+    drifts = present_drift(session, [row.target_id for row in part.items if row.target_id is not None])
     standings = [
         StationStanding(
-            row.code, row.name, row.source, row.language, opened.get(row.code), finished.get(row.code)
+            code=row.code,
+            name=row.name,
+            source=row.source,
+            language=row.language,
+            open_run=opened.get(row.code),
+            last_run=finished.get(row.code),
+            board_drift=None if row.target_id is None else drifts.get(row.target_id),
         )
         for row in part.items
     ]

@@ -154,9 +154,18 @@ EXAMPLE: JsonValue = {
     "agreement_px": 1e-9,
     "early_finish": None,
     "extrinsics": None,
+    "board_shape": None,
     "versions": {"service": "0.1.0", "opencv": "5.0.0"},
     "created_at": "2026-11-22T07:32:33.574474Z",
 }
+
+
+class UsedShape(Answer):
+    """The certified shape of a board with which a run was solved."""
+
+    id: UUID
+    target: str | None = Field(description="Serial of the board.")
+    version: int
 
 
 class Result(Answer):
@@ -183,6 +192,9 @@ class Result(Answer):
     )
     early_finish: EarlyFinish | None = Field(description="Null where every prescribed pose was taken.")
     extrinsics: Extrinsics | None = Field(description="Null without pictures of a fixed target.")
+    board_shape: UsedShape | None = Field(
+        description="Shape of the board that the solve took; null: the board was taken for flat."
+    )
     versions: dict[str, str]
     created_at: datetime
 

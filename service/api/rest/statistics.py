@@ -8,6 +8,7 @@ from pydantic import Field
 
 from service.api.auth import Viewer
 from service.api.dependencies import Now, PageOf, ReadDb
+from service.api.rest.board_shapes import Drift
 from service.api.rest.runs import RunSummary
 from service.api.shapes import Answer, Page, ShownSource
 from service.storage.words import Language
@@ -51,7 +52,7 @@ class Yield(Answer):
 
 
 class StationStanding(Answer):
-    """A station with its newest open run and its newest finished one."""
+    """A station with its newest open run, its newest finished one, and how its board has drifted."""
 
     code: str
     name: str
@@ -59,6 +60,9 @@ class StationStanding(Answer):
     language: Language | None
     open_run: RunSummary | None
     last_run: RunSummary | None
+    board_drift: Drift | None = Field(
+        description="Of the board's newest shape from the certified one; null: none was learnt since."
+    )
 
 
 @router.get("/yield", summary="Read the first-pass yield")

@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 
 from service.core.quality.coverage import default_working_zone, zone_grid
-from service.core.vision.board_shape import BoardShape, ShapeRun, camera_shift
+from service.core.vision.board_shape import BoardShape, ShapeRun, camera_by_board
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.transforms import Array
 from service.core.vision.uncertainty import parameter_metric
@@ -63,9 +63,8 @@ def compare_shapes(
     """
     change = certified - learnt
     moved = np.linalg.norm(change, axis=1)
-    shift = camera_shift(object_points + learnt, run, result, change)
-    intrinsics = result.intrinsics
-    H = parameter_metric(intrinsics, zone_grid(default_working_zone(intrinsics.image_size)))
+    shift = camera_by_board(object_points + learnt, run, result) @ change.ravel()
+    H = _metric(result)
     return Drift(
         worst_mm=1e3 * float(moved.max()),
         rms_mm=1e3 * float(np.sqrt(np.mean(moved**2))),
@@ -75,11 +74,42 @@ def compare_shapes(
     )
 
 
-def is_well_known(shape: BoardShape, limit_mm: float) -> bool:
-    """Whether a shape's corners are certain enough for a limit on their drift."""
-    return known_within_mm(shape.sd) <= KNOWN_SHARE * limit_mm
+@dataclass(frozen=True)
+class ShapeCertainty:
+    """What the uncertainty of a shape does to every camera that is solved with it, alike: sd.
+
+    corner_mm: root of the mean over the corners. focal_px, centre_px: the larger of both axes. mapping_px: of
+    the map over the working zone.
+    """
+
+    corner_mm: float
+    focal_px: float
+    centre_px: float
+    mapping_px: float
+
+    def suits(self, limit_mm: float) -> bool:
+        """Whether the corners are certain enough for a limit on their drift."""
+        return self.corner_mm <= KNOWN_SHARE * limit_mm
 
 
-def known_within_mm(sd: Array) -> float:
-    """Return the root mean square of the standard deviations (n, 3), m, of a shape, mm."""
-    return 1e3 * float(np.sqrt(np.mean(sd**2)))
+def measure_certainty(
+    object_points: Array, shape: BoardShape, run: ShapeRun, result: CalibrationResult
+) -> ShapeCertainty:
+    """Return how certain a shape of the pattern's object_points (n, 3) m is.
+
+    run, result: a run that was solved with the shape; its camera and poses stand for all.
+    """
+    moves = camera_by_board(object_points + shape.deviations, run, result)
+    shared = moves @ shape.covariance @ moves.T
+    sd = np.sqrt(np.maximum(np.diagonal(shared), 0.0))
+    return ShapeCertainty(
+        corner_mm=1e3 * float(np.sqrt(np.mean(shape.sd**2))),
+        focal_px=float(sd[:2].max()),
+        centre_px=float(sd[2:4].max()),
+        mapping_px=float(np.sqrt(max(float(np.trace(_metric(result) @ shared)), 0.0))),
+    )
+
+
+def _metric(result: CalibrationResult) -> Array:
+    intrinsics = result.intrinsics
+    return parameter_metric(intrinsics, zone_grid(default_working_zone(intrinsics.image_size)))

@@ -39,16 +39,21 @@ class ShapeRun:
 
 @dataclass(frozen=True)
 class BoardShape:
-    """How the corners of a plate lie off the pattern's: deviations (n, 3) m and their sd (n, 3) m.
+    """How the corners of a plate lie off the pattern's: deviations (n, 3) m and their covariance (3n, 3n).
 
     sigma_flat_px, sigma_px: noise of the corners about the solves with the pattern as it is meant, and with
     the shape; root of the mean over runs.
     """
 
     deviations: Array
-    sd: Array
+    covariance: Array
     sigma_flat_px: float
     sigma_px: float
+
+    @property
+    def sd(self) -> Array:
+        """Standard deviations of the corners (n, 3), m."""
+        return np.sqrt(np.maximum(np.diagonal(self.covariance), 0.0)).reshape(-1, 3)
 
     @property
     def bend_m(self) -> float:
@@ -73,7 +78,8 @@ def estimate_board_shape(
         np.array([PRIOR_IN_PLANE_M, PRIOR_IN_PLANE_M, PRIOR_HEIGHT_M]) ** -2, len(object_points)
     )
     prior = basis.T @ (precision[:, None] * basis)
-    q, covariance = np.zeros(basis.shape[1]), prior
+    q: Array = np.zeros(basis.shape[1])
+    covariance: Array = prior
     nominals = [run.nominal for run in runs]
     sigmas: list[float] = []
     for iteration in range(ITERATIONS):
@@ -83,16 +89,15 @@ def estimate_board_shape(
             results.append(solve_run(board, replace(run, nominal=nominal)))
             progress((iteration + (i + 1) / len(runs)) / ITERATIONS)
         M, g = _pooled(board, runs, results)
-        covariance = np.linalg.inv(prior + basis.T @ M @ basis)
+        covariance = np.asarray(np.linalg.inv(prior + basis.T @ M @ basis), dtype=np.float64)
         step = covariance @ (basis.T @ g - prior @ q)
         q += step
         nominals = [result.intrinsics for result in results]
         sigmas.append(float(np.sqrt(np.mean([result.sigma_px**2 for result in results]))))
         if np.abs(basis @ step).max() < SMALL_STEP_M:
             break
-    spread = np.sqrt(np.einsum("ij,jk,ik->i", basis, covariance, basis))
     deviations: Array = (basis @ q).reshape(-1, 3)
-    return BoardShape(deviations, spread.reshape(-1, 3), sigmas[0], sigmas[-1])
+    return BoardShape(deviations, basis @ covariance @ basis.T, sigmas[0], sigmas[-1])
 
 
 def solve_run(board: Array, run: ShapeRun) -> CalibrationResult:
@@ -126,16 +131,15 @@ def released_equations(board: Array, run: ShapeRun, result: CalibrationResult) -
     return reduced[:, :-1], reduced[:, -1]
 
 
-def camera_shift(board: Array, run: ShapeRun, result: CalibrationResult, change: Array) -> Array:
-    """Return how the parameters (p,) of a run's camera move when its plate is taken for another.
+def camera_by_board(board: Array, run: ShapeRun, result: CalibrationResult) -> Array:
+    """Return how the parameters of a run's camera move with the corners that its plate is said to have.
 
-    To first order. board: corners (n, 3) m at which the run was solved; change: (n, 3) m, added to them.
+    (p, 3n), to first order. board: corners (n, 3) m at which the run was solved.
     """
     whole, free = _with_camera(board, run, result)
-    step = np.linalg.solve(whole[:free, :free], -whole[:free, free:-1] @ change.ravel())
-    shift = np.zeros(len(result.intrinsics.vector))
-    shift[_free(result)] = step
-    return shift
+    moves = np.zeros((len(result.intrinsics.vector), board.size))
+    moves[_free(result)] = np.linalg.solve(whole[:free, :free], -whole[:free, free:-1])
+    return moves
 
 
 def _with_camera(board: Array, run: ShapeRun, result: CalibrationResult) -> tuple[Array, int]:

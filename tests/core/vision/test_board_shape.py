@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from service.core.errors import DegenerateViews
-from service.core.quality.board_drift import DriftState, compare_shapes, known_within_mm
+from service.core.quality.board_drift import DriftState, compare_shapes, measure_certainty
 from service.core.quality.evidence import Expectation, NamedDetection
 from service.core.quality.gates import Verdict
 from service.core.quality.verdict import calibrate_and_judge
-from service.core.vision.board_shape import BoardShape, ShapeRun, estimate_board_shape
+from service.core.vision.board_shape import BoardShape, ShapeRun, estimate_board_shape, solve_run
 from service.core.vision.calibration import View, calibrate_intrinsics
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.tolerance import Tolerance, draw_camera
@@ -70,12 +70,30 @@ def test_a_plate_is_learnt_to_a_hundredth_of_a_millimetre_and_no_longer_moves_th
     assert 0.28e-3 < shape.bend_m < 0.34e-3
     assert shape.sigma_px < 1.05 * SIGMA_PX < 1.3 * SIGMA_PX < shape.sigma_flat_px
     # The sd are those of the error that was made.
-    assert 0.6 < np.sqrt(np.mean(heights**2)) / (1e-3 * known_within_mm(shape.sd[:, 2:])) < 1.6
+    assert 0.6 < np.sqrt(np.mean(heights**2)) / np.sqrt(np.mean(shape.sd[:, 2] ** 2)) < 1.6
 
     before, _ = focal_bias(deviations, np.zeros_like(POINTS))
     after, sd = focal_bias(deviations, shape.deviations)
     assert abs(after) < 0.7 * sd
     assert abs(before) > abs(after)
+
+
+def test_what_a_shape_leaves_uncertain_is_what_cameras_have_in_common() -> None:
+    shape = learn(bent(0.3), count=3)
+    ((_, run),) = take_runs(bent(0.3), 1, seed=3)
+    found = measure_certainty(POINTS, shape, run, solve_run(POINTS + shape.deviations, run))
+    assert found.suits(0.1)
+    assert not found.suits(4.0 * found.corner_mm)
+    assert 0.0 < found.mapping_px < found.focal_px < found.centre_px < 1.0
+    # To first order a shape that is off by its own draw moves the camera as much.
+    rng = np.random.default_rng(1)
+    off = (np.linalg.cholesky(shape.covariance + 1e-16 * np.eye(162)) @ rng.standard_normal(162)).reshape(
+        -1, 3
+    )
+    moved = solve_run(POINTS + shape.deviations + off, run).intrinsics.vector
+    shift = np.abs(moved - solve_run(POINTS + shape.deviations, run).intrinsics.vector)
+    assert shift[:2].max() < 4.0 * found.focal_px
+    assert shift[2:4].max() < 4.0 * found.centre_px
 
 
 def test_a_flat_plate_is_found_flat_and_a_larger_one_is_not_told_from_a_nearer_one() -> None:

@@ -31,7 +31,7 @@ function Known({ population }: { population: Population }): JSX.Element {
   const { units, needed, judged_by: judgedBy, start_limits_used: used } = population;
   return (
     <>
-      <p class="muted">
+      <p class="panel-body muted">
         {judgedBy === null ? say.population_growing(units, needed) : say.population_judging(judgedBy)}
       </p>
       {used !== null && used > 1 && <p class="notice notice-problem">{say.population_wide(percent(used))}</p>}

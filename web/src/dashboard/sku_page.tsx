@@ -71,9 +71,11 @@ function Sku({ loaded: { sku, poseSets }, poseSet }: { loaded: Loaded; poseSet: 
       )}
       {revision !== undefined && (
         <div class="columns columns-sku">
-          <NominalPanel document={revision.document} />
+          <div class="column">
+            <NominalPanel document={revision.document} />
+            <PopulationPanel code={sku.code} revision={revision.number} />
+          </div>
           <LimitsPanel code={sku.code} revision={revision.number} />
-          <PopulationPanel code={sku.code} revision={revision.number} />
           <PoseSetsPanel
             code={sku.code}
             poseSets={poseSets}

@@ -1,6 +1,7 @@
 // One station on the page of stations.
 import { type JSX } from "preact";
-import type { RunSummary, StationStanding } from "../generated/api";
+import type { Drift, RunSummary, StationStanding } from "../generated/api";
+import { plain, significant } from "../format/numbers";
 import { exactly, when } from "../format/times";
 import { standingOf } from "../shell/verdict_mark";
 import { words } from "../words/language";
@@ -28,6 +29,7 @@ export function StationCard({ station }: { station: StationStanding }): JSX.Elem
       <div class="station-now">
         {open === null ? <p class="muted">{say.station_idle}</p> : <OpenRun run={open} />}
       </div>
+      {station.board_drift !== null && <BoardDrift drift={station.board_drift} />}
       <StationSource code={code} source={station.source} />
       <StationLanguage code={code} language={station.language} />
       <div class="station-last">
@@ -38,6 +40,19 @@ export function StationCard({ station }: { station: StationStanding }): JSX.Elem
         </a>
       </div>
     </li>
+  );
+}
+
+/** Said before the board goes out of its limit, and when it has. */
+function BoardDrift({ drift }: { drift: Drift }): JSX.Element | null {
+  const say = words.value;
+  if (drift.state === "steady") return null;
+  const isOver = drift.state === "over";
+  const told = isOver ? say.station_board_over : say.station_board_near;
+  return (
+    <p class={`notice ${isOver ? "notice-problem" : "notice-warning"}`}>
+      {told(significant(drift.worst_mm), plain(drift.limit_mm))}
+    </p>
   );
 }
 

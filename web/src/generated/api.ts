@@ -123,6 +123,65 @@ export interface BoardPose {
   tvec: [number, number, number];
 }
 
+/** Where the corners of a board are, against its pattern; learnt from runs. */
+export interface BoardShape {
+  id: string;
+  target_id: string;
+  version: number;
+  state: ShapeState;
+  /** From how many it was learnt. */
+  runs: number;
+  /** Height, peak to peak. */
+  bend_mm: number;
+  /** Farthest that a corner is from its place within the plane. */
+  in_plane_mm: number;
+  certainty: ShapeCertainty;
+  /** Noise of the corners when the board is taken for flat. */
+  sigma_flat_px: number;
+  /** Noise of the corners with this shape. */
+  sigma_px: number;
+  /** From the shape that was certified when it was learnt. */
+  drift: Drift | null;
+  created_at: string;
+  created_by: string;
+  /** From when on solves use it. */
+  certified_at: string | null;
+  certified_by: string | null;
+  retired_at: string | null;
+  retired_by: string | null;
+}
+
+/** A shape with its corners in the order of the pattern, x y z, and the runs behind it. */
+export interface BoardShapeDetail {
+  id: string;
+  target_id: string;
+  version: number;
+  state: ShapeState;
+  /** From how many it was learnt. */
+  runs: number;
+  /** Height, peak to peak. */
+  bend_mm: number;
+  /** Farthest that a corner is from its place within the plane. */
+  in_plane_mm: number;
+  certainty: ShapeCertainty;
+  /** Noise of the corners when the board is taken for flat. */
+  sigma_flat_px: number;
+  /** Noise of the corners with this shape. */
+  sigma_px: number;
+  /** From the shape that was certified when it was learnt. */
+  drift: Drift | null;
+  created_at: string;
+  created_by: string;
+  /** From when on solves use it. */
+  certified_at: string | null;
+  certified_by: string | null;
+  retired_at: string | null;
+  retired_by: string | null;
+  deviations_mm: [number, number, number][];
+  sd_mm: [number, number, number][];
+  run_ids: string[];
+}
+
 /** Room that a fixture takes: two opposite corners in the camera frame (x right, y down, z away), m. */
 export interface BoxDocument {
   low_m: [number, number, number];
@@ -234,6 +293,24 @@ export interface DataSheetDocument {
   vfov_deg?: number | null;
 }
 
+/** How far a learnt shape is from the certified one. */
+export interface Drift {
+  /** `near` from 80 % of the limit on, `over` beyond it. */
+  state: DriftState;
+  /** Farthest that a corner has moved. */
+  worst_mm: number;
+  rms_mm: number;
+  limit_mm: number;
+  /** What the focal length is off by with the certified shape. */
+  focal_px: number;
+  /** And the map of the working zone, root of the mean square. */
+  mapping_px: number;
+  measured_at?: string | null;
+}
+
+/** What is said about a plate's drift. */
+export type DriftState = "steady" | "near" | "over";
+
 /** How a run ended before its pose set was complete; 0.95 is the confidence of `proven_px`. */
 export interface EarlyFinish {
   /** Poses that were taken. */
@@ -338,6 +415,11 @@ export type JsonValue = unknown;
 
 /** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
 export type Language = "en" | "de" | "zh";
+
+/** From how many of the board's last runs to learn. */
+export interface LearnShape {
+  runs?: number;
+}
 
 /** A limit of a gate as it is in force. */
 export interface Limit {
@@ -455,6 +537,8 @@ export interface NewTarget {
   serial?: string | null;
   /** Pattern with inner corners and the side of a square. */
   spec: string;
+  /** How far a corner may move from the certified shape. */
+  drift_limit_mm?: number;
 }
 
 /** How a run ended. The verdict on the camera is another thing: only a completed run has one. */
@@ -462,6 +546,12 @@ export type Outcome = "COMPLETED" | "ERROR" | "ABORTED" | "TIMEOUT";
 
 export interface PageApiKey {
   items: ApiKey[];
+  /** Give it as `cursor` to go on; null: this was the last part. */
+  next_cursor: string | null;
+}
+
+export interface PageBoardShape {
+  items: BoardShape[];
   /** Give it as `cursor` to go on; null: this was the last part. */
   next_cursor: string | null;
 }
@@ -853,6 +943,8 @@ export interface Result {
   early_finish: EarlyFinish | null;
   /** Null without pictures of a fixed target. */
   extrinsics: Extrinsics | null;
+  /** Shape of the board that the solve took; null: the board was taken for flat. */
+  board_shape: UsedShape | null;
   versions: Record<string, string>;
   created_at: string;
 }
@@ -1025,6 +1117,19 @@ export interface SdParts {
   fixture: WorstSd;
 }
 
+/** Standard deviations that every camera solved with the shape has in common; more runs make them less. */
+export interface ShapeCertainty {
+  /** Of the corners themselves, root of the mean square. */
+  corner_mm: number;
+  focal_px: number;
+  centre_px: number;
+  /** Of the map of the working zone. */
+  mapping_px: number;
+}
+
+/** Life of a board's shape: learnt, used by the solves of its stations, replaced. */
+export type ShapeState = "draft" | "certified" | "retired";
+
 /** A picture of the run that another run holds too: the same file, byte by byte. */
 export interface SharedPicture {
   capture_id: string;
@@ -1155,7 +1260,7 @@ export interface StationChange {
   fixture?: FixtureDocument | null;
 }
 
-/** A station with its newest open run and its newest finished one. */
+/** A station with its newest open run, its newest finished one, and how its board has drifted. */
 export interface StationStanding {
   code: string;
   name: string;
@@ -1164,6 +1269,8 @@ export interface StationStanding {
   language: Language | null;
   open_run: RunSummary | null;
   last_run: RunSummary | null;
+  /** Of the board's newest shape from the certified one; null: none was learnt since. */
+  board_drift: Drift | null;
 }
 
 /** A board. */
@@ -1171,7 +1278,21 @@ export interface Target {
   id: string;
   serial: string | null;
   spec: string;
+  drift_limit_mm: number;
   created_at: string;
+}
+
+/** A board with the shape that solves use, and how far its newest shape is from that. */
+export interface TargetDetail {
+  id: string;
+  serial: string | null;
+  spec: string;
+  drift_limit_mm: number;
+  created_at: string;
+  /** Null: solves take the board for flat. */
+  certified_shape: BoardShape | null;
+  /** Null: nothing was learnt since the shape was certified. */
+  drift: Drift | null;
 }
 
 /** What is dark of a target, m: x along the rows of features from the first one, y from row to row. */
@@ -1201,6 +1322,14 @@ export interface ToleranceDocument {
   aspect_share?: number | null;
   centre_px?: number | null;
   coefficients?: Record<string, number> | null;
+}
+
+/** The certified shape of a board with which a run was solved. */
+export interface UsedShape {
+  id: string;
+  /** Serial of the board. */
+  target: string | null;
+  version: number;
 }
 
 /** The runs of one serial, newest first, and the result of the latest finished one. */

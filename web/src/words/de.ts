@@ -218,6 +218,10 @@ export const de: Words = {
   station_idle: "Kein offener Lauf",
   station_captures: "Aufnahmen",
   station_since: "seit",
+  station_board_over: (moved: string, limit: string) =>
+    `Das Target hat sich um ${moved} mm gegenüber seiner zertifizierten Form verändert; ${limit} mm sind erlaubt. Die Platte prüfen, dann die neue Form zertifizieren oder die Platte ersetzen.`,
+  station_board_near: (moved: string, limit: string) =>
+    `Das Target hat sich um ${moved} mm gegenüber seiner zertifizierten Form verändert, nahe der Grenze von ${limit} mm. Die Platte bald prüfen.`,
   station_last: "Letztes Urteil",
   station_no_verdict: "noch keines",
   station_runs: "Alle Läufe",

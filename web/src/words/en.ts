@@ -216,6 +216,10 @@ export const en = {
   station_idle: "No open run",
   station_captures: "captures",
   station_since: "since",
+  station_board_over: (moved: string, limit: string) =>
+    `The board has moved by ${moved} mm from its certified shape; ${limit} mm are allowed. Check the plate, then certify its new shape or replace it.`,
+  station_board_near: (moved: string, limit: string) =>
+    `The board has moved by ${moved} mm from its certified shape, near the limit of ${limit} mm. Check the plate soon.`,
   station_last: "Last verdict",
   station_no_verdict: "none yet",
   station_runs: "All runs",

@@ -213,6 +213,10 @@ export const zh: Words = {
   station_idle: "没有进行中的标定",
   station_captures: "采集",
   station_since: "开始于",
+  station_board_over: (moved: string, limit: string) =>
+    `标定板与认证形状相差 ${moved} mm，超过允许的 ${limit} mm。请检查标定板，然后认证其新形状或更换。`,
+  station_board_near: (moved: string, limit: string) =>
+    `标定板与认证形状相差 ${moved} mm，接近限值 ${limit} mm。请尽快检查标定板。`,
   station_last: "最近判定",
   station_no_verdict: "还没有",
   station_runs: "全部标定",
