@@ -7,11 +7,15 @@ export interface Residuals {
   all: readonly CornerResidual[];
 }
 
-/** Captures that the solve did not use have no residuals and do not appear. */
+/** Captures that no solve used have no residuals and do not appear; those of the fixed target are no part of all. */
 export function residualsOf(details: CaptureDetails): Residuals {
   const byCapture = new Map<string, readonly CornerResidual[]>();
-  for (const { id, corners, reprojected } of details.values()) {
-    if (reprojected !== null) byCapture.set(id, cornerResiduals(corners, reprojected));
+  const all: CornerResidual[] = [];
+  for (const { id, role, corners, reprojected } of details.values()) {
+    if (reprojected === null) continue;
+    const residuals = cornerResiduals(corners, reprojected);
+    byCapture.set(id, residuals);
+    if (role === "intrinsics") all.push(...residuals);
   }
-  return { byCapture, all: [...byCapture.values()].flat() };
+  return { byCapture, all };
 }
