@@ -19,18 +19,21 @@ export interface Residuals {
   all: readonly RunCorner[];
 }
 
-/** Captures that the solve did not use have no residuals and do not appear. */
+/** Captures that no solve used have no residuals and do not appear; those of the fixed target are no part of all. */
 export function residualsOf(details: CaptureDetails): Residuals {
   const byCapture = new Map<string, readonly RunCorner[]>();
-  for (const { id, corners, reprojected } of details.values()) {
+  const all: RunCorner[] = [];
+  for (const { id, role, corners, reprojected } of details.values()) {
     if (reprojected === null) continue;
-    const residuals = cornerResiduals(corners, reprojected);
-    byCapture.set(
-      id,
-      residuals.map((residual, corner) => ({ ...residual, captureId: id, corner })),
-    );
+    const residuals = cornerResiduals(corners, reprojected).map((residual, corner) => ({
+      ...residual,
+      captureId: id,
+      corner,
+    }));
+    byCapture.set(id, residuals);
+    if (role === "intrinsics") all.push(...residuals);
   }
-  return { byCapture, all: [...byCapture.values()].flat() };
+  return { byCapture, all };
 }
 
 /** The longest residuals, the longest first. */
