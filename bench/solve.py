@@ -109,7 +109,7 @@ def _solve(unit: Unit, design: Design) -> CalibrationResult:
     result = calibrate_intrinsics(
         unit.views, true.image_size, true.lens, nominal=unit.nominal, fixed=design.fixed
     )
-    leave_one_out(result, unit.views)
+    leave_one_out(result)
     return result
 
 

@@ -27,7 +27,7 @@ def measure_cross_check(evidence: Evidence) -> tuple[Measurement, ...]:
         return ()
     points = evidence.board
     views = [View(points[v.detection.corner_ids], v.detection.image_points, v.name) for v in evidence.views]
-    return (_halves(evidence, views), _held_out(evidence, views))
+    return (_halves(evidence, views), _held_out(evidence))
 
 
 def _worst(evidence: Evidence) -> Verdict:
@@ -94,8 +94,8 @@ def _noise(evidence: Evidence, half: CalibrationResult) -> float:
     return (evidence.result.sigma_px / half.sigma_px) ** 2 if half.sigma_px > 0 else 1.0
 
 
-def _held_out(evidence: Evidence, views: Sequence[View]) -> Measurement:
-    left_out = leave_one_out(evidence.result, views)
+def _held_out(evidence: Evidence) -> Measurement:
+    left_out = leave_one_out(evidence.result)
     ratio = left_out.held_out_rms_px / np.maximum(np.median(left_out.fit_rms_px), 1e-9)
     worst = evidence.names[int(np.nanargmax(np.where(np.isfinite(ratio), ratio, -1.0)))]
     return check_limit(

@@ -21,7 +21,7 @@ from service.core.vision.multi_start import (
     solve_from_nominal,
     solve_from_starts,
 )
-from service.core.vision.normal_equations import reduce, unit_scale
+from service.core.vision.normal_equations import NormalEquations, reduce, unit_scale
 from service.core.vision.transforms import Array, Pose, rotation_vector
 from service.core.vision.view_stack import View, stack_views
 
@@ -45,7 +45,8 @@ class CalibrationResult:
     """A solved camera.
 
     covariance: (p, p) in the order of parameter_names(lens), σ²(JᵀJ)⁻¹ with the fitted σ, zero where fixed.
-    poses: `T_cam_board` per view. residuals: detected − projected (n, 2) px per view.
+    poses: `T_cam_board` per view. residuals: detected − projected (n, 2) px per view. equations: those of the
+    free parameters at the optimum, view by view.
     sigma_px: √(Σe²/(2N − free unknowns)). rms_px: √(Σ|e|²/N). agreement_px: the largest difference over the
     image between the ends of the starts, inf where one of them failed. converged: the optimum is proven and
     the starts agree.
@@ -56,6 +57,7 @@ class CalibrationResult:
     fixed: tuple[str, ...]
     poses: tuple[Pose, ...]
     residuals: tuple[Array, ...]
+    equations: NormalEquations
     sigma_px: float
     rms_px: float
     starts: tuple[StartReport, ...]
@@ -159,6 +161,7 @@ def _result(problem: Problem, best: Fit, ends: Ends, fixed: tuple[str, ...]) -> 
             for pair in zip(rotation_vector(estimate.rotations), estimate.translations, strict=True)
         ),
         residuals=tuple(error[:count] for error, count in zip(errors, stack.counts, strict=True)),
+        equations=best.equations,
         sigma_px=float(np.sqrt(variance)),
         rms_px=_rms(problem, best),
         starts=tuple(_report(problem, name, fit) for name, fit in ends.fits.items()),

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from service.core.vision.camera import LENSES, Intrinsics, focal_of_view, parameter_names, unproject
 from service.core.vision.normal_equations import Estimate
-from service.core.vision.transforms import Array, rotation_matrix
+from service.core.vision.transforms import Array, rotation_matrix, skew, turn_points
 from service.core.vision.view_stack import ViewStack
 from service.core.vision.virtual_view import turn_towards
 
@@ -59,11 +59,9 @@ def blind_start(lens: str, image_size: tuple[int, int], stack: ViewStack) -> Est
     vector = _plain_vector(lens, 1.0, image_size)
     from_centre = stack.image_points - vector[2:4]
     in_plane = _radial_alignment(stack, from_centre)
-    tilted = np.stack([_complete(in_plane[0], sign) for sign in (1.0, -1.0)])
-    errors = []
-    for R in tilted:
-        focal, translations, error = _depths_and_focal(stack, from_centre, R, in_plane[1], joint=False)
-        errors.append(np.where((focal > 0) & _are_shown(lens, translations), error, np.inf))
+    tilted = _tilted(in_plane[0])
+    focal, translations, errors = _depths_and_focal(stack, from_centre, tilted, in_plane[1], joint=False)
+    errors = np.where((focal > 0) & _are_shown(lens, translations), errors, np.inf)
     better = np.where(errors[0] <= errors[1], 0, 1)
     rotations = tilted[better, np.arange(len(better))]
     focal, translations, _ = _depths_and_focal(stack, from_centre, rotations, in_plane[1], joint=True)
@@ -82,7 +80,7 @@ def planar_poses(stack: ViewStack, rays: Array) -> tuple[Array, Array]:
 
 
 def _are_shown(lens: str, translations: Array) -> NDArray[np.bool_]:
-    """Whether a lens has an image at all of each board's origin (v, 3), m."""
+    """Whether a lens has an image at all of boards' origins (..., 3), m."""
     return LENSES[lens].radius(translations) < np.inf
 
 
@@ -100,7 +98,7 @@ def _poses_in_plane(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
     length = (np.linalg.norm(H[..., 0], axis=-1) + np.linalg.norm(H[..., 1], axis=-1)) / 2.0
     H = H / length[:, None, None]
     H[..., 2] = H[..., 2] * scale[:, None]
-    columns = np.stack([H[..., 0], H[..., 1], np.cross(H[..., 0], H[..., 1])], axis=-1)
+    columns = np.concatenate([H[..., :2], skew(H[..., 0]) @ H[..., 1:2]], axis=-1)
     U, _, Vt = np.linalg.svd(columns)
     rotations = U @ Vt
     rotations = rotations * np.sign(np.linalg.det(rotations))[:, None, None]
@@ -164,20 +162,20 @@ def _radial_alignment(stack: ViewStack, from_centre: Array) -> tuple[Array, Arra
     # The larger singular value of an upper left block of a plane's rotation is one: an unshortened direction
     # exists.
     M = M / np.linalg.norm(M[..., :2], ord=2, axis=(-2, -1))[:, None, None]
-    along = np.einsum("vij,vnj,vni->v", M, plane, unit * stack.weights[..., None])
+    along = np.sum((plane @ np.swapaxes(M, -1, -2)) * unit * stack.weights[..., None], axis=(1, 2))
     M = M * np.where(along < 0, -1.0, 1.0)[:, None, None]
     across = M[..., 2] * size[:, None] - np.einsum("vij,vj->vi", M[..., :2], centre)
     return M[..., :2], across
 
 
-def _complete(block: Array, sign: float) -> Array:
-    """Return rotations (v, 3, 3) with a given upper left 2x2; the sign chooses between the two tilts."""
+def _tilted(block: Array) -> Array:
+    """Return the two rotations (2, v, 3, 3) of an upper left 2x2 (v, 2, 2): tilted to either side."""
     lower = np.sqrt(np.maximum(1.0 - np.sum(block * block, axis=1), 0.0))
     product = -np.sum(block[..., 0] * block[..., 1], axis=1)
     lower[:, 1] *= np.where(product < 0, -1.0, 1.0)
-    first_two = np.concatenate([block, sign * lower[:, None, :]], axis=1)
-    third = np.cross(first_two[..., 0], first_two[..., 1])
-    U, _, Vt = np.linalg.svd(np.concatenate([first_two, third[..., None]], axis=-1))
+    first_two = np.stack([np.concatenate([block, side[:, None]], axis=1) for side in (lower, -lower)])
+    third = skew(first_two[..., 0]) @ first_two[..., 1:]
+    U, _, Vt = np.linalg.svd(np.concatenate([first_two, third], axis=-1))
     rotations: Array = U @ Vt
     return rotations
 
@@ -185,12 +183,13 @@ def _complete(block: Array, sign: float) -> Array:
 def _depths_and_focal(
     stack: ViewStack, from_centre: Array, rotations: Array, across: Array, joint: bool
 ) -> tuple[Array, Array, Array]:
-    """Return the focal length of all views (1,) or of each (v,) px, translations (v, 3) m, squared errors.
+    """Return the focal length of all views (1,) or of each (..., v) px, translations (..., v, 3) m, errors.
 
+    rotations (..., v, 3, 3); across: translations across the axis (v, 2), m; errors: squared ones (..., v).
     With ρ a corner's distance from the centre and d its distance from the axis, (a + b ρ²) d − ρ tz = ρ q,
     where q is the corner's own depth against the board's origin; linear in a = f, b and the depths.
     """
-    camera = stack.object_points @ np.swapaxes(rotations, -1, -2)
+    camera = turn_points(rotations, stack.object_points)
     unit = 1.0 / np.abs(from_centre).max()
     rho = np.linalg.norm(from_centre, axis=-1) * unit
     d = np.linalg.norm(camera[..., :2] + across[:, None], axis=-1)
@@ -199,16 +198,15 @@ def _depths_and_focal(
     own, right = (-rho * w)[..., None], (rho * camera[..., 2]) * w
     # The depth of each view is eliminated, as the poses are in the solve.
     weight = np.sum(own * own, axis=1)
-    shared_free = shared - own * (np.sum(own * shared, axis=1) / weight)[:, None]
-    right_free = right - own[..., 0] * (np.sum(own[..., 0] * right, axis=1) / weight[:, 0])[:, None]
+    shared_free = shared - own * (np.sum(own * shared, axis=-2) / weight)[..., None, :]
+    right_free = right - own[..., 0] * (np.sum(own[..., 0] * right, axis=-1) / weight[:, 0])[..., None]
     A = np.swapaxes(shared_free, -1, -2) @ shared_free
-    b = np.einsum("vnf,vn->vf", shared_free, right_free)
+    b = np.swapaxes(shared_free, -1, -2) @ right_free[..., None]
     if joint:
         A, b = A.sum(axis=0, keepdims=True), b.sum(axis=0, keepdims=True)
-    solution = np.linalg.solve(
-        A + 1e-15 * np.trace(A, axis1=-2, axis2=-1)[:, None, None] * np.eye(2), b[..., None]
-    )
+    solution = np.linalg.solve(A + 1e-15 * np.trace(A, axis1=-2, axis2=-1)[..., None, None] * np.eye(2), b)
     error = right_free - (shared_free @ solution)[..., 0]
-    depths = np.sum(own[..., 0] * (right - (shared @ solution)[..., 0]), axis=1) / weight[:, 0]
-    translations = np.concatenate([across, depths[:, None]], axis=-1)
-    return solution[:, 0, 0] / unit, translations, np.sum(error * error, axis=1)
+    depths = np.sum(own[..., 0] * (right - (shared @ solution)[..., 0]), axis=-1) / weight[:, 0]
+    translations = np.empty((*depths.shape, 3))
+    translations[..., :2], translations[..., 2] = across, depths
+    return solution[..., 0, 0] / unit, translations, np.sum(error * error, axis=-1)

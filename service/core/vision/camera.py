@@ -11,7 +11,7 @@ import numpy as np
 from service.core.errors import IntrinsicsInvalid
 from service.core.vision import lens_kannala_brandt4, lens_pinhole5, lens_rational8
 from service.core.vision.lens import Lens
-from service.core.vision.transforms import Array
+from service.core.vision.transforms import Array, turn_points
 
 LENSES: Mapping[str, Lens] = {
     module.LENS.name: module.LENS for module in (lens_pinhole5, lens_rational8, lens_kannala_brandt4)
@@ -108,7 +108,7 @@ def project(intrinsics: Intrinsics, rotation: Array, translation: Array, object_
 
     rotation: (..., 3, 3); translation: (..., 3) m. NaN for points of which the lens has no image.
     """
-    points = object_points @ np.swapaxes(rotation, -1, -2) + translation[..., None, :]
+    points = turn_points(rotation, object_points) + translation[..., None, :]
     return project_camera_points(intrinsics, points)
 
 
@@ -123,30 +123,29 @@ def project_with_jacobians(
     6): a left increment exp(ω) R in rad first, then the translation in m.
     """
     vector = np.atleast_2d(vector)[:, None, :]
-    turned = object_points @ np.swapaxes(rotation, -1, -2)
+    turned = turn_points(rotation, object_points)
     points = turned + translation[:, None, :]
     focal = vector[..., :2]
     image, by_point, by_k = LENSES[lens].project_with_jacobians(points, vector[..., 4:])
+    by_image = focal.transpose(2, 0, 1)[:, None]
     by_parameters = np.zeros((2, vector.shape[-1], *points.shape[:-1]))
-    for axis in range(2):
-        by_parameters[axis, axis] = image[..., axis]
-        by_parameters[axis, 2 + axis] = 1.0
-        np.multiply(by_k[axis], focal[..., axis], out=by_parameters[axis, 4:])
-        by_point[axis] *= focal[..., axis]
-    by_pose = np.concatenate([_by_rotation(turned, by_point), by_point], axis=1)
+    by_parameters[0, 0], by_parameters[1, 1] = image[..., 0], image[..., 1]
+    by_parameters[0, 2] = by_parameters[1, 3] = 1.0
+    np.multiply(by_k, by_image, out=by_parameters[:, 4:])
+    by_pose = np.empty((2, 6, *points.shape[:-1]))
+    np.multiply(by_point, by_image, out=by_pose[:, 3:])
+    _by_rotation(turned, by_pose[:, 3:], out=by_pose[:, :3])
     pixels = image * focal + vector[..., 2:4]
     return pixels, by_parameters.transpose(2, 3, 0, 1), by_pose.transpose(2, 3, 0, 1)
 
 
-def _by_rotation(turned: Array, by_point: Array) -> Array:
-    """Return derivatives (2, 3, ...) by a rotation ω of turned points (..., 3): g · (ω × t) = ω · (t × g)."""
+def _by_rotation(turned: Array, by_point: Array, out: Array) -> None:
+    """Write derivatives (2, 3, ...) by a rotation ω of turned points (..., 3): g · (ω × t) = ω · (t × g)."""
     tx, ty, tz = turned[..., 0], turned[..., 1], turned[..., 2]
-    out = np.empty_like(by_point)
-    for axis, (gx, gy, gz) in enumerate(by_point):
-        out[axis, 0] = ty * gz - tz * gy
-        out[axis, 1] = tz * gx - tx * gz
-        out[axis, 2] = tx * gy - ty * gx
-    return out
+    gx, gy, gz = by_point[:, 0], by_point[:, 1], by_point[:, 2]
+    out[:, 0] = ty * gz - tz * gy
+    out[:, 1] = tz * gx - tx * gz
+    out[:, 2] = tx * gy - ty * gx
 
 
 def unproject(intrinsics: Intrinsics, image_points: Array) -> Array:

@@ -5,16 +5,14 @@ from the common optimum leads to the optimum without it. Exact to first order; a
 many standard deviations is found all the same. Not here: limits (`service.core.quality`).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import parameter_names
-from service.core.vision.normal_equations import Estimate, Reduced, linearise, reduce, unit_scale
-from service.core.vision.transforms import Array, stack_poses
-from service.core.vision.view_stack import View, stack_views
+from service.core.vision.normal_equations import Reduced, reduce, unit_scale
+from service.core.vision.transforms import Array
 
 
 @dataclass(frozen=True)
@@ -38,25 +36,21 @@ class LeaveOneOut:
         return float(np.sqrt(np.mean(self.held_out_rms_px**2) / np.mean(self.fit_rms_px**2)))
 
 
-def leave_one_out(result: CalibrationResult, views: Sequence[View]) -> LeaveOneOut:
-    """Return the results without each view of a solve; views: those of the solve, in the same order."""
-    stack = stack_views(views)
-    lens, vector = result.intrinsics.lens, result.intrinsics.vector
-    free = np.array(
-        [i for i, name in enumerate(parameter_names(lens)) if name not in result.fixed], dtype=np.intp
-    )
-    equations = linearise(lens, stack, Estimate(vector, *stack_poses(result.poses)), free)
-    reduced = reduce(equations)
+def leave_one_out(result: CalibrationResult) -> LeaveOneOut:
+    """Return the results without each view of a solve."""
+    vector, squared_errors = result.intrinsics.vector, result.equations.squared_errors
+    free = [i for i, name in enumerate(parameter_names(result.intrinsics.lens)) if name not in result.fixed]
+    reduced = reduce(result.equations)
     steps = _steps_without(reduced)
     vectors = np.tile(vector, (len(steps), 1))
     vectors[:, free] += steps
     gained = 2.0 * np.sum(steps * reduced.gradient, axis=1)
     curved = np.einsum("vf,vfg,vg->v", steps, reduced.information, steps)
-    counts = np.array(stack.counts)
-    held_out = np.sqrt(np.maximum(equations.squared_errors - gained + curved, 0.0) / counts)
+    counts = np.array([len(residuals) for residuals in result.residuals])
+    held_out = np.sqrt(np.maximum(squared_errors - gained + curved, 0.0) / counts)
     spread = vectors - vectors.mean(axis=0)
     covariance = spread.T @ spread * (len(steps) - 1) / len(steps)
-    return LeaveOneOut(vectors, held_out, np.sqrt(equations.squared_errors / counts), covariance)
+    return LeaveOneOut(vectors, held_out, np.sqrt(squared_errors / counts), covariance)
 
 
 def _steps_without(reduced: Reduced) -> Array:

@@ -42,12 +42,11 @@ def distort_with_jacobians(xy: Array, k: Array) -> tuple[Array, Array, Array]:
     by_xy[0, 1] = by_xy[1, 0] = 0.5 * slope * xy2 + tangential_y
     by_xy[1, 1] = radial + slope * yy + tangential_x + 4.0 * p1 * y
     by_k = np.empty((2, 8, *x.shape))
-    for axis, value in enumerate((x, y)):
-        by_k[axis, 0] = value * r2 * inverse
-        by_k[axis, 1] = by_k[axis, 0] * r2
-        by_k[axis, 4] = by_k[axis, 1] * r2
-        for above_index, below_index in ((0, 5), (1, 6), (4, 7)):
-            by_k[axis, below_index] = -radial * by_k[axis, above_index]
+    by_k[0, 0], by_k[1, 0] = x * r2 * inverse, y * r2 * inverse
+    by_k[:, 1] = by_k[:, 0] * r2
+    by_k[:, 4] = by_k[:, 1] * r2
+    for above_index, below_index in ((0, 5), (1, 6), (4, 7)):
+        by_k[:, below_index] = -radial * by_k[:, above_index]
     by_k[0, 2] = by_k[1, 3] = xy2
     by_k[0, 3] = r2 + 2.0 * xx
     by_k[1, 2] = r2 + 2.0 * yy

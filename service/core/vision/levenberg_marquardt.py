@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from service.core.vision.normal_equations import (
     Estimate,
     NormalEquations,
+    Step,
     is_feasible,
     linearise,
-    reduce,
-    solve_reduced,
+    solve_step,
 )
-from service.core.vision.transforms import Array
 from service.core.vision.view_stack import ViewStack
 
 DISTANCE_TO_OPTIMUM_SD = 3e-5
@@ -31,19 +30,20 @@ LARGEST_DAMPING = 1e9
 
 @dataclass(frozen=True)
 class Fit:
-    """Where a solve ended, after how many steps, and whether that is proven to be an optimum."""
+    """Where a solve ended, after how many steps, and the undamped step that proves it to be an optimum.
+
+    That step is not taken: it is None where nothing is proven.
+    """
 
     estimate: Estimate
     equations: NormalEquations
     iterations: int
-    converged: bool
+    proof: Step | None
 
-
-@dataclass(frozen=True)
-class _Step:
-    parameters: Array
-    poses: Array
-    promised: float
+    @property
+    def converged(self) -> bool:
+        """Whether the end is proven to be an optimum."""
+        return self.proof is not None
 
 
 def minimise(
@@ -54,76 +54,72 @@ def minimise(
     *,
     iterations: int = 200,
     damping: float = FIRST_DAMPING,
+    distance_sd: float = DISTANCE_TO_OPTIMUM_SD,
     may_fold: bool = False,
 ) -> Fit | None:
     """Minimise the squared reprojection errors over the free parameters (indices) and all poses.
 
     damping: the first one; small where the start is known to be near, so that the first step is nearly
-    Newton's. may_fold: the way, but not the end, may lead beyond the fold of the lens. None where the start
-    or the end is not feasible: a corner is behind the camera or beyond the fold.
+    Newton's. distance_sd: how near to the optimum is near enough. may_fold: the way, but not the end, may
+    lead beyond the fold of the lens. None where the start or the end is not feasible: a corner is behind the
+    camera or beyond the fold.
     """
     if not is_feasible(lens, start, stack.visible_points, may_fold):
         return None
-    fit = _descend(lens, stack, start, free, iterations=iterations, damping=damping, may_fold=may_fold)
+    way = _Way(iterations, damping, distance_sd, may_fold)
+    fit = _descend(lens, stack, start, free, way)
     if may_fold and not is_feasible(lens, fit.estimate, stack.visible_points):
         return None
     return fit
 
 
-def _descend(
-    lens: str,
-    stack: ViewStack,
-    here: Estimate,
-    free: NDArray[np.intp],
-    *,
-    iterations: int,
-    damping: float,
-    may_fold: bool,
-) -> Fit:
+@dataclass(frozen=True)
+class _Way:
+    iterations: int
+    damping: float
+    distance_sd: float
+    may_fold: bool
+
+
+def _descend(lens: str, stack: ViewStack, here: Estimate, free: NDArray[np.intp], way: _Way) -> Fit:
     """Take steps from a feasible estimate until the optimum is proven or nothing helps any more."""
-    equations = linearise(lens, stack, here, free)
-    for iteration in range(iterations):
+    equations, damping = linearise(lens, stack, here, free), way.damping
+    for iteration in range(way.iterations):
         step = _step(equations, damping)
-        threshold = _threshold(stack, equations, len(free))
-        if step is not None and step.promised <= threshold and _is_optimum(equations, threshold):
-            return Fit(here, equations, iteration, converged=True)
+        threshold = way.distance_sd**2 * _variance(stack, equations, len(free))
+        if step is not None and step.promised <= threshold:
+            proof = _proof(equations, threshold)
+            if proof is not None:
+                return Fit(here, equations, iteration, proof)
         if damping > LARGEST_DAMPING:
             break
-        moved = _try(lens, stack, here, free, step, may_fold=may_fold)
+        moved = _try(lens, stack, here, free, step, may_fold=way.may_fold)
         gain = (equations.cost - moved[1].cost) / step.promised if moved and step else -1.0
         if moved and gain > 0:
             here, equations = moved
         damping = _next_damping(damping, gain)
-    return Fit(here, equations, iterations, converged=False)
+    return Fit(here, equations, way.iterations, None)
 
 
-def _threshold(stack: ViewStack, equations: NormalEquations, free: int) -> float:
-    """Return the promise, px², below which an estimate counts as the optimum."""
+def _variance(stack: ViewStack, equations: NormalEquations, free: int) -> float:
+    """Return the variance of a corner coordinate, px², as the residuals tell it."""
     unknowns = free + 6 * len(equations.V)
-    variance = equations.cost / max(stack.measurements - unknowns, 1)
-    return DISTANCE_TO_OPTIMUM_SD**2 * max(variance, SMALLEST_SIGMA_PX**2)
+    return max(equations.cost / max(stack.measurements - unknowns, 1), SMALLEST_SIGMA_PX**2)
 
 
-def _step(equations: NormalEquations, damping: float) -> _Step | None:
-    """Return the damped step with the decrease that its linear model promises, None where undetermined."""
+def _step(equations: NormalEquations, damping: float) -> Step | None:
+    """Return the damped step; None where it is undetermined."""
     try:
-        reduced = reduce(equations, damping)
-        parameters, poses = solve_reduced(reduced)
+        step = solve_step(equations, damping)
     except np.linalg.LinAlgError:
         return None
-    along = parameters @ equations.by_parameters.sum(axis=0) + np.sum(poses * equations.by_pose)
-    # The promise |e|² − |e − Jδ|² of a damped step exceeds δᵀg by λ δᵀDδ.
-    diagonal_u = np.diagonal(equations.U, axis1=-2, axis2=-1).sum(axis=0)
-    diagonal_v = np.diagonal(equations.V, axis1=-2, axis2=-1)
-    damped = damping * (np.sum(diagonal_u * parameters**2) + np.sum(diagonal_v * poses**2))
-    promised = float(along + damped)
-    return _Step(parameters, poses, promised) if np.isfinite(promised) and promised >= 0 else None
+    return step if 0.0 <= step.promised < np.inf else None
 
 
-def _is_optimum(equations: NormalEquations, threshold: float) -> bool:
-    """Whether an undamped step promises next to nothing: damping hides a slope along a weak direction."""
+def _proof(equations: NormalEquations, threshold: float) -> Step | None:
+    """Return the undamped step if it promises next to nothing: damping hides slopes along weak directions."""
     newton = _step(equations, 0.0)
-    return newton is not None and newton.promised <= threshold
+    return newton if newton is not None and newton.promised <= threshold else None
 
 
 def _try(
@@ -131,7 +127,7 @@ def _try(
     stack: ViewStack,
     here: Estimate,
     free: NDArray[np.intp],
-    step: _Step | None,
+    step: Step | None,
     *,
     may_fold: bool,
 ) -> tuple[Estimate, NormalEquations] | None:

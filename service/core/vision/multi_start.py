@@ -8,6 +8,7 @@ would be the same; where they are not, each start is solved on all corners. Not 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -24,6 +25,8 @@ from service.core.vision.view_stack import ViewStack
 AGREEMENT_PX = 0.05
 THINNED_CORNERS = 16
 DAMPING_NEAR_OPTIMUM = 1e-9
+# The optimum of a few corners is itself several sd of all unknowns away from that of all corners.
+COARSE_DISTANCE_SD = 0.03
 FIRST_PARAMETERS = (0, 1, 4)
 
 
@@ -107,11 +110,23 @@ def _coarse(problem: Problem, thinned: ViewStack, start: Estimate | None) -> Fit
     if start is None:
         return None
     start = _held(problem, start)
-    direct = minimise(problem.lens, thinned, start, problem.firm, iterations=60)
+    solve = partial(
+        minimise, problem.lens, thinned, start, problem.firm, iterations=60, distance_sd=COARSE_DISTANCE_SD
+    )
+    direct = solve()
     if direct and direct.converged:
-        return direct
-    through = minimise(problem.lens, thinned, start, problem.firm, iterations=60, may_fold=True)
-    return through if through and through.converged else _cheapest([direct, through])
+        return _arrived(problem, direct)
+    through = solve(may_fold=True)
+    return _arrived(problem, through) if through and through.converged else _cheapest([direct, through])
+
+
+def _arrived(problem: Problem, fit: Fit) -> Fit:
+    """Return a proven fit with the step of its proof taken, so that ends can be told apart to a hair."""
+    if fit.proof is None:
+        return fit
+    step = np.zeros_like(fit.estimate.vector)
+    step[problem.firm] = fit.proof.parameters
+    return replace(fit, estimate=fit.estimate.moved(step, fit.proof.poses))
 
 
 def _cheapest(fits: Sequence[Fit | None]) -> Fit | None:

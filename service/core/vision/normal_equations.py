@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.camera import LENSES, project_with_jacobians
-from service.core.vision.transforms import Array, rotation_matrix
+from service.core.vision.transforms import Array, rotation_matrix, turn_points
 from service.core.vision.view_stack import ViewStack
 
 
@@ -31,18 +31,21 @@ class Estimate:
 
 @dataclass(frozen=True)
 class NormalEquations:
-    """Blocks at one estimate: U (v, f, f), W (v, f, 6), V (v, 6, 6) for f free parameters.
+    """Blocks of each view at one estimate, the errors e = detected − projected as a column more behind J.
 
-    by_parameters (v, f) and by_pose (v, 6) are gradients, squared_errors (v,) px². Gradients are Jᵀe with e =
-    detected − projected, so that steps solve JᵀJ δ = Jᵀe.
+    shared (v, f + 1, f + 1) for f free parameters: U with the gradient Jᵀe as its last column and e² in its
+    corner. mixed (v, 6, f + 1): Wᵀ with the poses' gradient. V (v, 6, 6). Steps solve JᵀJ δ = Jᵀe.
     """
 
-    U: Array
-    W: Array
+    shared: Array
+    mixed: Array
     V: Array
-    by_parameters: Array
-    by_pose: Array
-    squared_errors: Array
+
+    @property
+    def squared_errors(self) -> Array:
+        """Sum of squared weighted errors of each view (v,), px²."""
+        errors: Array = self.shared[:, -1, -1]
+        return errors
 
     @property
     def cost(self) -> float:
@@ -52,19 +55,26 @@ class NormalEquations:
 
 @dataclass(frozen=True)
 class Reduced:
-    """Equations without the poses: information (v, f, f), gradient (v, f); V⁻¹Wᵀ (v, 6, f), V⁻¹g (v, 6)."""
+    """What each view tells without its pose: information (v, f, f), gradient (v, f)."""
 
     information: Array
     gradient: Array
-    pose_by_parameters: Array
-    pose_alone: Array
+
+
+@dataclass(frozen=True)
+class Step:
+    """Steps of the parameters (f,) and poses (v, 6), and the decrease, px², that a linear model promises."""
+
+    parameters: Array
+    poses: Array
+    promised: float
 
 
 def is_feasible(lens: str, estimate: Estimate, object_points: Array, may_fold: bool = False) -> bool:
     """Whether the lens shows each board point (v, n, 3) and, unless it may fold, before the fold."""
     if not (np.all(np.isfinite(estimate.vector)) and estimate.vector[:2].min() > 0):
         return False
-    points = object_points @ np.swapaxes(estimate.rotations, -1, -2) + estimate.translations[:, None, :]
+    points = turn_points(estimate.rotations, object_points) + estimate.translations[:, None, :]
     model = LENSES[lens]
     farthest = float(model.radius(points).max())
     # Written so that NaN is not feasible.
@@ -81,43 +91,43 @@ def linearise(lens: str, stack: ViewStack, estimate: Estimate, free: NDArray[np.
     J = np.empty((views, f + 7, 2, count))
     rows = J.transpose(0, 3, 2, 1)
     rows[..., :f] = by_parameters if f == by_parameters.shape[-1] else by_parameters[..., free]
-    rows[..., f:-1] = by_pose
-    rows[..., -1] = stack.image_points - pixels
+    rows[..., f] = stack.image_points - pixels
+    rows[..., f + 1 :] = by_pose
     if stack.is_weighted:
         J *= stack.weights[:, None, None, :]
     flat = J.reshape(views, f + 7, 2 * count)
     G = flat @ np.swapaxes(flat, -1, -2)
-    return NormalEquations(
-        G[:, :f, :f], G[:, :f, f:-1], G[:, f:-1, f:-1], G[:, :f, -1], G[:, f:-1, -1], G[:, -1, -1]
-    )
+    known, pose = slice(0, f + 1), slice(f + 1, None)
+    return NormalEquations(G[:, known, known], np.ascontiguousarray(G[:, pose, known]), G[:, pose, pose])
 
 
-def reduce(equations: NormalEquations, damping: float = 0.0) -> Reduced:
-    """Eliminate the poses, with Marquardt's damping on the diagonals.
+def reduce(equations: NormalEquations) -> Reduced:
+    """Eliminate the poses; raises LinAlgError where one is undetermined."""
+    mixed = equations.mixed
+    left = equations.shared - np.swapaxes(mixed, -1, -2) @ np.linalg.solve(equations.V, mixed)
+    return Reduced(left[:, :-1, :-1], left[:, :-1, -1])
 
-    Raises LinAlgError where a pose is undetermined.
+
+def solve_step(equations: NormalEquations, damping: float = 0.0) -> Step:
+    """Return the step with Marquardt's damping on the diagonals.
+
+    Raises LinAlgError where the parameters or a pose are undetermined.
     """
-    U, V = equations.U, equations.V
-    if damping > 0:
-        U, V = _damped(U, damping), _damped(V, damping)
-    right = np.concatenate([np.swapaxes(equations.W, -1, -2), equations.by_pose[..., None]], axis=-1)
-    solved = np.linalg.solve(V, right)
-    pose_by_parameters, pose_alone = solved[..., :-1], solved[..., -1]
-    removed = equations.W @ solved
-    return Reduced(
-        U - removed[..., :-1], equations.by_parameters - removed[..., -1], pose_by_parameters, pose_alone
-    )
-
-
-def solve_reduced(reduced: Reduced) -> tuple[Array, Array]:
-    """Return the steps of the parameters (f,) and of the poses (v, 6).
-
-    Raises LinAlgError where the parameters are undetermined.
-    """
-    information, gradient = reduced.information.sum(axis=0), reduced.gradient.sum(axis=0)
-    scale = unit_scale(information)
-    step = scale * np.linalg.solve(information * np.outer(scale, scale), gradient * scale)
-    return step, reduced.pose_alone - reduced.pose_by_parameters @ step
+    columns = equations.mixed.shape[-1]
+    total = equations.shared.sum(axis=0)
+    added_to_poses = damping * np.einsum("vii->vi", equations.V)
+    added = damping * np.diagonal(total)[:-1]
+    V = equations.V.copy()
+    np.einsum("vii->vi", V)[...] += added_to_poses
+    eliminated = np.linalg.solve(V, equations.mixed)
+    # The sum of all views' products is one product of all their rows.
+    left = total - equations.mixed.reshape(-1, columns).T @ eliminated.reshape(-1, columns)
+    parameters = _solve_scaled(left[:-1, :-1] + np.diag(added), left[:-1, -1])
+    poses = eliminated[..., -1] - eliminated[..., :-1] @ parameters
+    # The promise |e|² − |e − Jδ|² of a damped step exceeds δᵀg by λ δᵀDδ.
+    promised = parameters @ (total[:-1, -1] + added * parameters)
+    promised += np.vdot(poses, equations.mixed[..., -1] + added_to_poses * poses)
+    return Step(parameters, poses, float(promised))
 
 
 def unit_scale(information: Array) -> Array:
@@ -126,14 +136,13 @@ def unit_scale(information: Array) -> Array:
     Raises LinAlgError where a parameter has no information at all.
     """
     diagonal = np.diagonal(information)
-    if not (np.all(np.isfinite(diagonal)) and np.all(diagonal > 0)):
+    # Written so that NaN has none either.
+    if not (diagonal.min() > 0 and diagonal.max() < np.inf):
         raise np.linalg.LinAlgError("a parameter is undetermined")
     return np.asarray(1.0 / np.sqrt(diagonal))
 
 
-def _damped(matrices: Array, damping: float) -> Array:
-    """Return matrices (v, d, d) with their diagonals enlarged by a factor 1 + damping."""
-    index = np.arange(matrices.shape[-1])
-    out = matrices.copy()
-    out[..., index, index] *= 1.0 + damping
-    return out
+def _solve_scaled(information: Array, gradient: Array) -> Array:
+    """Solve a system whose unknowns have units of their own."""
+    scale = unit_scale(information)
+    return np.asarray(scale * np.linalg.solve(information * np.outer(scale, scale), gradient * scale))

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from service.core.vision.transforms import Array
 
 NEAREST_M = 1e-9
-ITERATIONS = 50
+ITERATIONS = 12
+SMALL_STEP = 1e-7
 BISECTIONS = 24
 FARTHEST = 12.0  # ideal radius, 85 degrees
 
@@ -58,21 +59,24 @@ class PerspectiveLens:
         """
         limit = self.reach_of(k)
         ideal, good = self._newton(image, k, _inside(image, 0.99 * limit), limit)
-        if not np.all(good | ~np.isfinite(image).all(axis=-1, keepdims=True)):
+        left = ~good & np.isfinite(image).all(axis=-1)
+        if np.any(left):
             # Far from the image, as with a strongly bent quotient, Newton may leap about: begin near the end.
-            again, found = self._newton(image, k, self._bisected(image, k, limit), limit)
-            ideal, good = np.where(good, ideal, again), good | found
-        return np.where(good, np.concatenate([ideal, np.ones_like(ideal[..., :1])], axis=-1), np.nan)
+            start = self._bisected(image[left], k, limit)
+            ideal[left], good[left] = self._newton(image[left], k, start, limit)
+        rays = np.concatenate([ideal, np.ones_like(ideal[..., :1])], axis=-1)
+        return np.where(good[..., None], rays, np.nan)
 
     def _newton(self, image: Array, k: Array, ideal: Array, limit: float) -> tuple[Array, NDArray[np.bool_]]:
-        """Return ideal coordinates (..., 2) from a start, and whether they give the image (..., 1)."""
+        """Return ideal coordinates (..., 2) from a start, and whether they give the image (...)."""
         for _ in range(ITERATIONS):
             distorted, by_ideal, _ = self.distort_with_jacobians(ideal, k)
-            residual = image - distorted
-            if not np.any(np.abs(residual) > 1e-13):
+            step = _solve_2x2(by_ideal, image - distorted)
+            ideal = _before_fold(ideal, step, limit)
+            # What a step leaves is about its square.
+            if not np.any(np.abs(step) > SMALL_STEP):
                 break
-            ideal = _before_fold(ideal, _solve_2x2(by_ideal, residual), limit)
-        return ideal, np.linalg.norm(image - self.distort(ideal, k), axis=-1, keepdims=True) < 1e-9
+        return ideal, np.asarray(np.linalg.norm(image - self.distort(ideal, k), axis=-1) < 1e-9)
 
     def _bisected(self, image: Array, k: Array, limit: float) -> Array:
         """Return points (..., 2) along the image's own directions whose distorted radius is the image's."""

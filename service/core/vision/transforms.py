@@ -66,15 +66,17 @@ def skew(v: Array) -> Array:
 def rotation_matrix(rvec: Array) -> Array:
     """Return rotation matrices (..., 3, 3) of rotation vectors (..., 3), rad (Rodrigues' formula)."""
     rvec = np.asarray(rvec, dtype=np.float64)
-    angle_sq = np.sum(rvec * rvec, axis=-1)[..., None, None]
-    angle = np.sqrt(angle_sq)
-    small = angle < 1e-6
-    safe = np.where(small, 1.0, angle)
-    a = np.where(small, 1.0 - angle_sq / 6.0, np.sin(safe) / safe)
-    b = np.where(small, 0.5 - angle_sq / 24.0, (1.0 - np.cos(safe)) / (safe * safe))
+    half = np.linalg.norm(rvec, axis=-1)[..., None, None] / (2.0 * np.pi)
+    # sin θ / θ and (1 − cos θ) / θ², also where θ vanishes; NumPy's sinc is of π x.
+    a, b = np.sinc(2.0 * half), 0.5 * np.sinc(half) ** 2
     K = skew(rvec)
     rotation: Array = np.eye(3) + a * K + b * (K @ K)
     return rotation
+
+
+def turn_points(R: Array, points: Array) -> Array:
+    """Return points (..., n, 3) after rotations (..., 3, 3), each component in one piece of memory."""
+    return np.swapaxes(R @ np.swapaxes(points, -1, -2), -1, -2)
 
 
 def rotation_vector(R: Array) -> Array:

@@ -16,6 +16,7 @@ from service.core.vision.transforms import Array, rotation_matrix
 
 GRID = (12, 8)
 ROTATION_STEPS = 8
+SMALL_TURN_RAD = 1e-6
 
 
 @dataclass(frozen=True)
@@ -126,8 +127,10 @@ def best_turn(b: Intrinsics, rays: Array, pixels: Array) -> tuple[Array, Array]:
     for _ in range(ROTATION_STEPS):
         projected, _, by_pose = project_with_jacobians(b.lens, b.vector, R[None], np.zeros((1, 3)), rays)
         difference = pixels - projected[0]
-        turn, *_ = np.linalg.lstsq(by_pose[..., :3].reshape(-1, 3), difference.reshape(-1), rcond=None)
-        if np.abs(turn).max() < 1e-10:
-            break
+        B = by_pose[0, ..., :3]
+        turn, *_ = np.linalg.lstsq(B.reshape(-1, 3), difference.reshape(-1), rcond=None)
         R = rotation_matrix(turn) @ R
+        if np.abs(turn).max() < SMALL_TURN_RAD:
+            # Of so small a turn the square is rounding: what is left follows without another look.
+            return R, difference - B @ turn
     return R, difference

@@ -6,6 +6,7 @@ Not here: solving.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,7 +46,7 @@ class ViewStack:
         """Number of scalar measurements: two for each corner."""
         return 2 * sum(self.counts)
 
-    @property
+    @cached_property
     def is_weighted(self) -> bool:
         """Whether any corner counts for other than one."""
         return bool(np.any(self.weights != 1.0))

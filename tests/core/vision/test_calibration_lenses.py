@@ -107,7 +107,7 @@ def test_leave_one_out_finds_the_view_that_does_not_belong(camera: Intrinsics) -
     views[5] = View(BOARD.object_points, turned, "odd")
     fixed = ["k6"] if camera.lens == "rational8" else []
     result = calibrate_intrinsics(views, camera.image_size, camera.lens, fixed=fixed)
-    without = leave_one_out(result, views)
+    without = leave_one_out(result)
     assert int(np.argmax(without.held_out_rms_px)) == 5
     assert without.ratio > 1.0
 

@@ -2,12 +2,16 @@ import { describe, expect, it } from "vitest";
 import type { CaptureDetail } from "../generated/api";
 import { longest, residualsOf } from "./run_residuals";
 
-function detail(id: string, reprojected: [number, number][] | null): [string, CaptureDetail] {
+function detail(
+  id: string,
+  reprojected: [number, number][] | null,
+  role = "intrinsics",
+): [string, CaptureDetail] {
   const corners: [number, number][] = [
     [10, 10],
     [20, 10],
   ];
-  return [id, { id, corners, reprojected } as unknown as CaptureDetail];
+  return [id, { id, role, corners, reprojected } as unknown as CaptureDetail];
 }
 
 const DETAILS = new Map([
@@ -20,6 +24,14 @@ const DETAILS = new Map([
     [10, 10],
     [17, 6],
   ]),
+  detail(
+    "fixed",
+    [
+      [10, 30],
+      [20, 10],
+    ],
+    "extrinsics",
+  ),
 ]);
 
 describe("residuals of a run", () => {
@@ -31,7 +43,7 @@ describe("residuals of a run", () => {
       ["c", 0],
       ["c", 1],
     ]);
-    expect([...byCapture.keys()]).toEqual(["a", "c"]);
+    expect([...byCapture.keys()]).toEqual(["a", "c", "fixed"]);
   });
 
   it("are listed from the longest on", () => {
