@@ -206,13 +206,6 @@ class TargetSpecInvalid(Unprocessable):
     title = "The target description cannot be read"
 
 
-class PaperUnusable(Unprocessable):
-    """A target does not fit on the paper, or the paper is none."""
-
-    code = "paper-unusable"
-    title = "The target cannot be printed on this paper"
-
-
 class IntrinsicsInvalid(Unprocessable):
     """Intrinsics have a wrong shape, an unknown lens or impossible values."""
 

@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 from reportlab.pdfbase.pdfmetrics import stringWidth
 
-from service.core.errors import PaperUnusable, TargetSpecInvalid
+from service.core.errors import TargetSpecInvalid
 from service.core.vision.detection import detect_target
-from service.core.vision.sheet import WORDS_MM, lay_out_sheet
+from service.core.vision.sheet import WORDS_MM, PaperUnusable, lay_out_sheet
 from service.core.vision.target import parse_target
 from service.usecases.sheets import make_sheet
 
