@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from service.core.vision.pattern import Pattern, pattern_of
-from service.core.vision.problems import PaperUnusable
-from service.core.vision.sheet import LARGEST_SIDE_MM, PAPERS, Paper, lay_out_sheet
+from service.core.vision.sheet import LARGEST_SIDE_MM, PAPERS, Paper, PaperUnusable, lay_out_sheet
 from service.core.vision.target import parse_target
 from service.usecases.sheet_pdf import sheet_pdf
 from service.usecases.sheet_svg import sheet_svg

@@ -13,8 +13,7 @@ from reportlab.pdfbase.pdfmetrics import stringWidth
 
 from service.core.errors import TargetSpecInvalid
 from service.core.vision.detection import detect_target
-from service.core.vision.problems import PaperUnusable
-from service.core.vision.sheet import WORDS_MM, lay_out_sheet
+from service.core.vision.sheet import WORDS_MM, PaperUnusable, lay_out_sheet
 from service.core.vision.target import parse_target
 from service.usecases.sheets import make_sheet
 

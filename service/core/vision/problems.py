@@ -1,4 +1,4 @@
-"""What can be wrong with a target, its print or a picture of it, as errors for a caller.
+"""What can be wrong with a picture of a target or with the target itself, as errors for a caller.
 
 All others: `core.errors`.
 """
@@ -11,10 +11,3 @@ class TargetOverexposed(Unprocessable):
 
     code = "target-overexposed"
     title = "The target is overexposed"
-
-
-class PaperUnusable(Unprocessable):
-    """A target does not fit on the paper, or the paper is none."""
-
-    code = "paper-unusable"
-    title = "The target cannot be printed on this paper"

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from service.core.errors import Unprocessable
 from service.core.vision.pattern import Pattern, pattern_of
-from service.core.vision.problems import PaperUnusable
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array
 
@@ -23,6 +23,13 @@ TICK_EVERY_MM, LONG_TICK_EVERY_MM, NUMBER_EVERY_MM = 5, 10, 50
 WORDS_MM = 130.0  # width that the longest line of words takes
 EXACT_MM = 1e-6
 LARGEST_SIDE_MM = 5000.0  # the largest page of a PDF
+
+
+class PaperUnusable(Unprocessable):
+    """A target does not fit on the paper, or the paper is none."""
+
+    code = "paper-unusable"
+    title = "The target cannot be printed on this paper"
 
 
 @dataclass(frozen=True)

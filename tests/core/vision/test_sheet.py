@@ -4,8 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from service.core.vision.problems import PaperUnusable
-from service.core.vision.sheet import PAPERS, Paper, Sheet, lay_out_sheet
+from service.core.vision.sheet import PAPERS, Paper, PaperUnusable, Sheet, lay_out_sheet
 from service.core.vision.target import parse_target
 
 KINDS = (
