@@ -93,3 +93,15 @@ def wait_for_hint(page: Page, fits: Callable[[str], bool]) -> str:
             return str(code)
         page.wait_for_timeout(40)
     raise AssertionError("no such instruction came")
+
+
+def scan_label(page: Page, serial: str) -> None:
+    """Read a label as a scanner does: all letters at once, however slowly a busy page answers the test."""
+    page.evaluate(
+        """serial => {
+            for (const key of [...serial, 'Enter'])
+                (document.activeElement ?? document.body).dispatchEvent(
+                    new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));
+        }""",
+        serial,
+    )

@@ -13,6 +13,7 @@ from tests.browser.kiosk_station import (
     open_kiosk,
     prepare_stations,
     scan,
+    scan_label,
     stored_run,
     verdict_of,
     wait_for_captures,
@@ -71,6 +72,10 @@ def test_every_screen_of_a_vehicles_run_can_be_used_by_everybody(
     page.screenshot(path=shots / "tool-start.png")
     assert page.evaluate(SMALLEST_BUTTON) >= 72
     scan(page, "VIN-TOOL-1", sku="strict")
+    # The run must not be over before all has been looked at.
+    automatic = page.get_by_role("button", name="Auto")
+    automatic.click()
+    expect(automatic).to_have_attribute("aria-pressed", "false")
     wait_for_hint(page, lambda code: code != "")
     assert page.evaluate(SMALLEST_BUTTON) >= 72
     access.look(page, "guide")
@@ -80,6 +85,7 @@ def test_every_screen_of_a_vehicles_run_can_be_used_by_everybody(
     access.look(page, "question")
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_have_count(0)
+    automatic.click()
     expect(verdict_of(page)).to_contain_text("FAIL")
     access.look(page, "verdict")
     page.get_by_role("button", name="Next vehicle").click()
@@ -118,8 +124,7 @@ def test_a_practice_has_a_score_and_a_best_and_counts_for_nobody(
     assert not access.found, "\n".join(access.found)
     assert (watch.errors, watch.outside, watch.refused) == ([], [], [])
     # Whoever scans a vehicle now goes on with it: practice is over.
-    page.keyboard.type("VIN-TOOL-2")
-    page.keyboard.press("Enter")
+    scan_label(page, "VIN-TOOL-2")
     expect(page.locator(".whose-serial")).to_have_text("VIN-TOOL-2")
     expect(bar).to_have_count(0)
     abort(page)
@@ -169,8 +174,7 @@ def test_the_voice_says_each_instruction_once_and_never_over_another(
     automatic.click()
     expect(automatic).to_have_attribute("aria-pressed", "false")
     # What stands long enough to be said: another vehicle's label, and at the latest the result.
-    page.keyboard.type("VIN-TOOL-9")
-    page.keyboard.press("Enter")
+    scan_label(page, "VIN-TOOL-9")
     page.wait_for_function("() => window.said.some(({ text }) => text.startsWith('这里正在标定另一辆车'))")
     page.get_by_role("button", name="知道了").click()
     automatic.click()
