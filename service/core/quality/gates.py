@@ -66,7 +66,7 @@ def check_limit(
     name: str,
     value: float,
     comparison: Comparison,
-    limit: float,
+    limit: float | Limits,
     *,
     good: str,
     bad: str,
@@ -79,10 +79,13 @@ def check_limit(
 ) -> Measurement:
     """Return the measurement of a value against its limit; it must be `comparison` the limit.
 
-    good: what PASS means. bad, remedy: what is wrong, and what to do; near the limit there is the remedy
-    only. share: MARGINAL from this share of the limit on. worst: the worst verdict this value may lead to.
-    reason: the code of these sentences, by default the measurement's name. facts: what they name.
+    limit: a number with its share, or the limits that hold both by the measurement's name. good: what PASS
+    means. bad, remedy: what is wrong, and what to do; near the limit there is the remedy only. share:
+    MARGINAL from this share of the limit on. worst: the worst verdict this value may lead to. reason: the
+    code of these sentences, by default the measurement's name. facts: what they name.
     """
+    if isinstance(limit, Limits):
+        share, limit = limit.share(name), limit.bound(name)
     verdict = _judge(value, comparison, limit, share)
     if SEVERITY.index(verdict) > SEVERITY.index(worst):
         verdict = worst

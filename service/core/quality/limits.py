@@ -80,6 +80,10 @@ class Limits:
     other_population: float = 10.0  # -2 ln of a likelihood ratio: e^5, or 150 to 1
     marginal: Mapping[str, float] = field(default_factory=_default_shares)
 
+    def bound(self, name: str) -> float:
+        """Return the limit `name`."""
+        return float(getattr(self, name))
+
     def share(self, name: str) -> float:
         """Return the share of limit `name` from which on a value is MARGINAL."""
         return self.marginal.get(name, MARGINAL_SHARE)
