@@ -3,6 +3,8 @@
 Not here: what a kind of target prints into them (`target_*.py`).
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,23 +12,41 @@ from service.core.vision.printed import Area, square_area
 from service.core.vision.transforms import Array
 
 
-def grid_points(columns: int, rows: int, step_m: float) -> Array:
-    """Return an even grid (rows * columns, 3), m: row by row, z = 0."""
-    grid = np.zeros((rows * columns, 3))
-    grid[:, 0] = np.tile(np.arange(columns), rows) * step_m
-    grid[:, 1] = np.repeat(np.arange(rows), columns) * step_m
-    return grid
+@dataclass(frozen=True)
+class SquareGrid:
+    """The corners between the squares of a board: inner corners (columns x rows), the side of a square, m."""
+
+    columns: int
+    rows: int
+    square_m: float
+
+    @property
+    def object_points(self) -> Array:
+        """Inner corners (rows * columns, 3), m: row by row, z = 0."""
+        row, column = np.divmod(np.arange(self.rows * self.columns), self.columns)
+        return np.stack([column, row, np.zeros(len(row))], axis=-1) * self.square_m
+
+    @property
+    def centre(self) -> Array:
+        """The middle of the corners (3,), m."""
+        return np.array([(self.columns - 1) / 2, (self.rows - 1) / 2, 0.0]) * self.square_m
+
+    @property
+    def outer_corners(self) -> tuple[int, int, int, int]:
+        """Indices of the four outermost corners: top left, top right, bottom right, bottom left."""
+        return grid_outer(self.columns, self.rows)
+
+    @property
+    def outline(self) -> Array:
+        """Corners (4, 3), m, of the printed pattern: one square beyond the outermost corners."""
+        side = self.square_m
+        return rectangle(-side, -side, self.columns * side, self.rows * side)
 
 
 def grid_outer(columns: int, rows: int) -> tuple[int, int, int, int]:
     """Return the indices of the outermost features: top left, top right, bottom right, bottom left."""
     last = rows * columns - 1
     return 0, columns - 1, last, last - columns + 1
-
-
-def grid_outline(columns: int, rows: int, step_m: float) -> Array:
-    """Return the corners (4, 3), m, of a rectangle one step beyond an even grid, in the same order."""
-    return rectangle(-step_m, -step_m, columns * step_m, rows * step_m)
 
 
 def rectangle(left_m: float, top_m: float, right_m: float, bottom_m: float) -> Array:

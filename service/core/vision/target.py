@@ -74,11 +74,6 @@ class Target(Protocol):
         ...
 
     @property
-    def is_coded(self) -> bool:
-        """Whether features can be told apart, so that a part of the board is enough."""
-        ...
-
-    @property
     def is_symmetric(self) -> bool:
         """Whether the pattern looks the same turned by 180 degrees: the order is a choice then."""
         ...

@@ -9,7 +9,7 @@ Source: kalibr_create_target_pdf (Schneider, 2013).
 
 import re
 from dataclasses import dataclass
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,15 +32,12 @@ SPACINGS: Final = (0.1, 1.0)
 class AprilGrid:
     """A grid of tags (tag_columns x tag_rows) by a tag's side, m, and the gap as a share of it."""
 
+    kind: ClassVar[str] = KIND
+
     tag_columns: int
     tag_rows: int
     tag_m: float
     spacing: float
-
-    @property
-    def kind(self) -> str:
-        """The first word of its spec."""
-        return KIND
 
     @property
     def spec(self) -> str:
@@ -93,11 +90,6 @@ class AprilGrid:
         """Corners (4, 3), m, of the printed pattern: a dark square beyond the outermost corners."""
         gap, right, bottom = self.square_m, self._places(self.columns)[-1], self._places(self.rows)[-1]
         return rectangle(-gap, -gap, float(right) + gap, float(bottom) + gap)
-
-    @property
-    def is_coded(self) -> bool:
-        """Always: the tags tell the corners apart."""
-        return True
 
     @property
     def is_symmetric(self) -> bool:

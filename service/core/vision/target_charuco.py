@@ -7,19 +7,13 @@ and so on, row by row.
 
 import re
 from dataclasses import dataclass
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from service.core.errors import TargetSpecInvalid
-from service.core.vision.feature_grid import (
-    dark_squares,
-    grid_outer,
-    grid_outline,
-    grid_points,
-    neighbours,
-)
+from service.core.vision.feature_grid import SquareGrid, dark_squares, neighbours
 from service.core.vision.markers import DICTIONARIES, dark_cells, marker_dictionary
 from service.core.vision.printed import Area, cells_area
 from service.core.vision.transforms import Array
@@ -31,19 +25,13 @@ SMALLEST_MARKER = 0.4  # of the square
 
 
 @dataclass(frozen=True)
-class Charuco:
+class Charuco(SquareGrid):
     """A chessboard by its inner corners and the side of a square, m, with markers of a side, m."""
 
-    columns: int
-    rows: int
-    square_m: float
+    kind: ClassVar[str] = KIND
+
     marker_m: float
     dictionary: str
-
-    @property
-    def kind(self) -> str:
-        """The first word of its spec."""
-        return KIND
 
     @property
     def spec(self) -> str:
@@ -60,31 +48,6 @@ class Charuco:
     def finest_m(self) -> float:
         """The side of a cell of a marker, m."""
         return self.marker_m / (marker_dictionary(self.dictionary).markerSize + 2)
-
-    @property
-    def object_points(self) -> Array:
-        """Inner corners (rows * columns, 3), m: row by row, z = 0."""
-        return grid_points(self.columns, self.rows, self.square_m)
-
-    @property
-    def centre(self) -> Array:
-        """The middle of the corners (3,), m."""
-        return np.array([(self.columns - 1) / 2, (self.rows - 1) / 2, 0.0]) * self.square_m
-
-    @property
-    def outer_corners(self) -> tuple[int, int, int, int]:
-        """Indices of the four outermost corners: top left, top right, bottom right, bottom left."""
-        return grid_outer(self.columns, self.rows)
-
-    @property
-    def outline(self) -> Array:
-        """Corners (4, 3), m, of the printed pattern: one square beyond the outermost corners."""
-        return grid_outline(self.columns, self.rows, self.square_m)
-
-    @property
-    def is_coded(self) -> bool:
-        """Always: the markers tell the corners apart."""
-        return True
 
     @property
     def is_symmetric(self) -> bool:

@@ -6,31 +6,21 @@ this fixes the order, whichever way up the board is held.
 
 import re
 from dataclasses import dataclass
-from typing import Final
-
-import numpy as np
+from typing import ClassVar, Final
 
 from service.core.errors import TargetSpecInvalid
-from service.core.vision.feature_grid import dark_squares, grid_outer, grid_outline, grid_points
+from service.core.vision.feature_grid import SquareGrid, dark_squares
 from service.core.vision.printed import Area
-from service.core.vision.transforms import Array
 
 KIND: Final = "chessboard"
 PATTERN = re.compile(r"chessboard:(\d{1,2})x(\d{1,2})(?::(\d+(?:\.\d+)?)mm)?")
 
 
 @dataclass(frozen=True)
-class Chessboard:
+class Chessboard(SquareGrid):
     """A chessboard by its inner corners (columns x rows) and the side of one square, m."""
 
-    columns: int
-    rows: int
-    square_m: float
-
-    @property
-    def kind(self) -> str:
-        """The first word of its spec."""
-        return KIND
+    kind: ClassVar[str] = KIND
 
     @property
     def spec(self) -> str:
@@ -46,31 +36,6 @@ class Chessboard:
     def finest_m(self) -> float:
         """The side of a square, m."""
         return self.square_m
-
-    @property
-    def object_points(self) -> Array:
-        """Corners (rows * columns, 3), m: row by row, z = 0."""
-        return grid_points(self.columns, self.rows, self.square_m)
-
-    @property
-    def centre(self) -> Array:
-        """The middle of the corners (3,), m."""
-        return np.array([(self.columns - 1) / 2, (self.rows - 1) / 2, 0.0]) * self.square_m
-
-    @property
-    def outer_corners(self) -> tuple[int, int, int, int]:
-        """Indices of the four outermost corners: top left, top right, bottom right, bottom left."""
-        return grid_outer(self.columns, self.rows)
-
-    @property
-    def outline(self) -> Array:
-        """Corners (4, 3), m, of the printed pattern: one square beyond the outermost corners."""
-        return grid_outline(self.columns, self.rows, self.square_m)
-
-    @property
-    def is_coded(self) -> bool:
-        """Never: a part of a chessboard may be any part."""
-        return False
 
     @property
     def is_symmetric(self) -> bool:

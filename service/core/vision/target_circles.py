@@ -6,7 +6,7 @@ every other row is shifted by one. DIAMETER is that of a dot; without it, half a
 
 import re
 from dataclasses import dataclass
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -24,15 +24,12 @@ DIAMETERS: Final = (0.2, 1.2)  # of a step; nearest dots are 1.41 steps apart
 class Circles:
     """A grid of dots (columns x rows) by its step and a dot's diameter, m."""
 
+    kind: ClassVar[str] = KIND
+
     columns: int
     rows: int
     step_m: float
     diameter_m: float
-
-    @property
-    def kind(self) -> str:
-        """The first word of its spec."""
-        return KIND
 
     @property
     def spec(self) -> str:
@@ -77,11 +74,6 @@ class Circles:
         radius, step = 0.5 * self.diameter_m, self.step_m
         right, bottom = (2 * self.columns - 1) * step, (self.rows - 1) * step
         return rectangle(-radius, -radius, right + radius, bottom + radius)
-
-    @property
-    def is_coded(self) -> bool:
-        """Never: a part of a grid of equal dots may be any part."""
-        return False
 
     @property
     def is_symmetric(self) -> bool:
