@@ -4,6 +4,7 @@ import type { Extrinsics, Result, WorstSd } from "../generated/api";
 import { digitsForSd, fixed, withUnit } from "../format/numbers";
 import type { Words } from "../words/en";
 import { words } from "../words/language";
+import { EstimateTable } from "./estimate_table";
 import { Facts, type Fact } from "./facts";
 
 const AXES = ["x", "y", "z"] as const;
@@ -18,43 +19,26 @@ export function ExtrinsicsPanel({ result }: { result: Result }): JSX.Element | n
         <h2 id="extrinsics-title">{say.extrinsics_title}</h2>
         <span class="muted">T_vehicle_cam</span>
       </div>
-      <table class="intrinsics">
-        <caption class="visually-hidden">{say.extrinsics_caption}</caption>
-        <thead>
-          <tr>
-            <th scope="col">{say.col_parameter}</th>
-            <th scope="col" class="number">
-              {say.col_estimate}
-            </th>
-            <th scope="col" class="number">
-              ± {say.col_sd}
-            </th>
-            <th scope="col">
-              <span class="visually-hidden">mm</span>
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {AXES.map((axis, i) => (
-            <Row
-              key={axis}
-              name={`${say.extrinsics_position} ${axis}`}
-              value={1000 * (extrinsics.pose.tvec[i] ?? 0)}
-              sd={extrinsics.translation_sd_mm[i]}
-              unit="mm"
-            />
-          ))}
-          {AXES.map((axis, i) => (
-            <Row
-              key={`turn-${axis}`}
-              name={`${say.extrinsics_rotation} ${axis}`}
-              value={((extrinsics.pose.rvec[i] ?? 0) * 180) / Math.PI}
-              sd={(extrinsics.rotation_sd_mdeg[i] ?? 0) / 1000}
-              unit="°"
-            />
-          ))}
-        </tbody>
-      </table>
+      <EstimateTable caption={say.extrinsics_caption} unit="mm">
+        {AXES.map((axis, i) => (
+          <Row
+            key={axis}
+            name={`${say.extrinsics_position} ${axis}`}
+            value={1000 * (extrinsics.pose.tvec[i] ?? 0)}
+            sd={extrinsics.translation_sd_mm[i]}
+            unit="mm"
+          />
+        ))}
+        {AXES.map((axis, i) => (
+          <Row
+            key={`turn-${axis}`}
+            name={`${say.extrinsics_rotation} ${axis}`}
+            value={((extrinsics.pose.rvec[i] ?? 0) * 180) / Math.PI}
+            sd={(extrinsics.rotation_sd_mdeg[i] ?? 0) / 1000}
+            unit="°"
+          />
+        ))}
+      </EstimateTable>
       <Facts facts={factsOf(extrinsics, say)} />
     </section>
   );

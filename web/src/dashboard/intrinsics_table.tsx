@@ -4,6 +4,7 @@ import type { Result } from "../generated/api";
 import { digitsForSd, fixed, significant, withUnit } from "../format/numbers";
 import type { Words } from "../words/en";
 import { words } from "../words/language";
+import { EstimateTable } from "./estimate_table";
 import { Facts, type Fact } from "./facts";
 
 const PIXEL_PARAMETERS = new Set(["fx", "fy", "cx", "cy"]);
@@ -16,28 +17,11 @@ export function IntrinsicsTable({ result }: { result: Result }): JSX.Element {
         <h2 id="intrinsics-title">{say.intrinsics_title}</h2>
         <span class="muted">{result.lens}</span>
       </div>
-      <table class="intrinsics">
-        <caption class="visually-hidden">{say.intrinsics_caption}</caption>
-        <thead>
-          <tr>
-            <th scope="col">{say.col_parameter}</th>
-            <th scope="col" class="number">
-              {say.col_estimate}
-            </th>
-            <th scope="col" class="number">
-              ± {say.col_sd}
-            </th>
-            <th scope="col">
-              <span class="visually-hidden">px</span>
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {Object.entries(result.intrinsics).map(([name, value]) => (
-            <Parameter key={name} name={name} value={value} sd={result.sd[name]} say={say} />
-          ))}
-        </tbody>
-      </table>
+      <EstimateTable caption={say.intrinsics_caption} unit="px">
+        {Object.entries(result.intrinsics).map(([name, value]) => (
+          <Parameter key={name} name={name} value={value} sd={result.sd[name]} say={say} />
+        ))}
+      </EstimateTable>
       <Facts facts={factsOf(result, say)} />
     </section>
   );
