@@ -4,3 +4,5 @@ A bench is a module here with `run(quick: bool) -> dict[str, object]`, whose fir
 design's list of benches and which holds its `seeds`, and `table(result) -> str`. It may have
 `plot(result, path)`, and `reuse(result)` where another bench's result will do. Not here: tests.
 """
+
+import service  # noqa: F401 - before NumPy, whose threads it limits as in the service

@@ -66,7 +66,7 @@ def run(quick: bool) -> dict[str, Any]:
             "of_in_use": _scatter(total, _predict(FITTED_NOISE, measured)),
             "of_one_for_all": _scatter(total, np.ones(len(total))),
         },
-        "bias_of_in_use": float(np.exp(np.mean(np.log(total / _predict(FITTED_NOISE, measured))))) - 1.0,
+        "bias_of_in_use": _bias(FITTED_NOISE, measured),
         "views": len(measured),
         "seeds": [SEED],
     }
@@ -95,9 +95,11 @@ def fit_noise(measured: list[Measured]) -> CornerNoise:
     levels = [_aliasing(measured, blur_px) for blur_px in BLURS_PX]
     by_blur, aliasing = np.polyfit(np.log(np.array(BLURS_PX) / REFERENCE_BLUR_PX), np.log(levels), 1)
     by_square, by_slant, random_by_blur = (float(value) for value in random[1:])
-    return CornerNoise(
+    parts = CornerNoise(
         float(np.exp(random[0])), by_square, by_slant, random_by_blur, float(np.exp(aliasing)), float(by_blur)
     )
+    # What the pixel grid does to edges across it is in neither part.
+    return parts.at_level(parts.level_px * (1.0 + _bias(parts, measured)))
 
 
 def _aliasing(measured: list[Measured], blur_px: float) -> float:
@@ -118,6 +120,12 @@ def _predict(noise: CornerNoise, measured: list[Measured]) -> Array:
     aliasing = np.array([one.alignment * np.exp(one.log_blur * noise.aliasing_by_blur) for one in measured])
     total: Array = np.hypot(random, noise.aliasing_px * aliasing)
     return total
+
+
+def _bias(noise: CornerNoise, measured: list[Measured]) -> float:
+    """Return by which share all errors are larger than predicted, on average."""
+    total = np.hypot([one.random_px for one in measured], [one.constant_px for one in measured])
+    return float(np.exp(np.mean(np.log(total / _predict(noise, measured))))) - 1.0
 
 
 def _scatter(total: Array, predicted: Array) -> float:
@@ -153,7 +161,7 @@ def _measure_space(
         variance = float(np.var(errors, axis=0, ddof=1).mean())
         constant = float(np.mean(np.mean(errors, axis=0) ** 2)) - variance / REPEATS
         yield Measured(
-            log_square=float(np.log(seen.smallest_square_px[i] / REFERENCE_SQUARE_PX)),
+            log_square=min(float(np.log(seen.smallest_square_px[i] / REFERENCE_SQUARE_PX)), 0.0),
             log_slant=float(np.log(np.cos(seen.incidence_rad[i]))),
             log_blur=float(np.log(prepared.scene.blur_px / REFERENCE_BLUR_PX)),
             alignment=float(grid_alignment(seen.skew[i : i + 1])[0]),

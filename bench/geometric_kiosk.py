@@ -35,7 +35,7 @@ class GuidedRun:
     """How a run went: when each capture was made, s, the poses captured, and whether every pose was.
 
     told: the hints that were shown. turnarounds: per pose that was begun, how often the first hint asked for
-    the opposite of what it had last asked for on its axis.
+    the opposite of what it had last asked for on its axis, since the board was last out of sight.
     """
 
     captured_at_s: tuple[float, ...]
@@ -56,6 +56,8 @@ class _Watch:
     def see(self, hints: tuple[ShownHint, ...]) -> None:
         """Take note of the hints of one frame."""
         self.told |= {hint.code for hint in hints}
+        if Hint.SHOW_BOARD in {hint.code for hint in hints}:
+            self.latest = set()  # wherever the board comes back, it is another way from there
         first = hints[0].code if hints else None
         if first in OPPOSITE:
             self.turnarounds[-1] += OPPOSITE[first] in self.latest

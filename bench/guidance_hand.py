@@ -54,10 +54,10 @@ class Effort:
     """
 
     candidates: int = 3000
-    starts: int = 50
+    starts: int = 200
     case_starts: int = 10
     case_every: int = 1
-    seeds: int = 10
+    seeds: int = 20
     count: int = 12
     counts: tuple[int, ...] = (8, 20)
     flips: int = len(OPPOSITE)
@@ -89,7 +89,7 @@ def table(result: Mapping[str, Any]) -> str:
             f"{'every pose':<32}{'reached':>12}{'median s':>10}{'slowest s':>11}{'turned round':>14}",
             *(_case_line(code, name, row) for code in codes for name, row in result[code]["cases"].items()),
             "turned round: most changes of direction of the first hint at any pose",
-            f"{'whole runs':<32}{'complete':>12}{'median s':>10}",
+            f"{'whole runs':<32}{'complete':>12}{'median s':>10}{'slowest s':>11}{'turned round':>14}",
             *(
                 _runs_line(code, name, row)
                 for code in codes
@@ -109,7 +109,8 @@ def _case_line(code: str, name: str, row: Mapping[str, Any]) -> str:
 
 def _runs_line(code: str, name: str, row: Mapping[str, Any]) -> str:
     complete = f"{row['complete']}/{row['runs']}"
-    return f"{code + ', N = ' + name:<32}{complete:>12}{row['median_s']:>10.1f}"
+    times = f"{row['median_s']:>10.1f}{row['slowest_s']:>11.1f}"
+    return f"{code + ', N = ' + name:<32}{complete:>12}{times}{row['turnarounds_max']:>14}"
 
 
 def _flip_line(hint: str, row: Mapping[str, Any]) -> str:
@@ -182,6 +183,7 @@ def _measure_runs(
         "runs": len(done),
         "median_s": float(np.median(times)),
         "slowest_s": max(times),
+        "turnarounds_max": max(turn for one in done for turn in one.turnarounds),
     }
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import cv2
@@ -17,7 +18,9 @@ from service.core.vision.camera import Intrinsics
 from service.core.vision.target import Target
 from service.storage.words import Role
 from service.usecases.guide_frames import RawFrame
-from tests.plant import Plant, picture, pose_set
+from service.usecases.planning import PlanRequest, plan_for
+from service.usecases.sku_document import SkuDocument
+from tests.plant import Plant, picture, pose_set, running_plant
 
 JsonObject = dict[str, Any]
 GOOD = {Hint.HOLD, Hint.HOLD_STILL}
@@ -53,6 +56,22 @@ class Film:
 def film(nominal: Intrinsics, target: Target, serial: str) -> Film:
     """The source of every virtual station of a test."""
     return Film()
+
+
+@contextmanager
+def planned_station(address: str, folder: Path, document: JsonObject) -> Iterator[Plant]:
+    """A plant with a SKU, its planned poses, and a virtual station whose hand reads only hints."""
+    with running_plant(address, folder, virtual_speed=1000) as running:
+        running.expect(201, running.post("/skus", document))
+        running.expect(200, running.post("/skus/tiny/revisions/1/publish"))
+        planned = plan_for(
+            SkuDocument.model_validate(document).to_revision(), PlanRequest(seed=1, candidates=300)
+        )
+        poses = [{"rvec": list(pose.rvec), "tvec": list(pose.tvec)} for pose in planned.poses]
+        made = running.expect(201, running.post("/skus/tiny/revisions/1/pose-sets", {"poses": poses}))
+        running.expect(200, running.post(f"/pose-sets/{made['pose_set']['id']}/publish"))
+        add_station(running)
+        yield running
 
 
 def add_station(plant: Plant, code: str = "cal1", source: str = "virtual") -> None:

@@ -65,9 +65,12 @@ def board_bounds(scene: Scene, plate: Plate, pose: Pose) -> tuple[int, int, int,
     return int(first[1]), int(last[1]), int(first[0]), int(last[0])
 
 
-def may_meet_edge(meeting: Meeting, plate: Plate, rays: RayMap) -> NDArray[np.bool_]:
-    """Return which pixels (n,) an edge may cross, by a bound that needs no Jacobian per pixel."""
-    spread = rays.spread[meeting.pixels] / meeting.inverse_depth
+def may_meet_edge(meeting: Meeting, plate: Plate, rays: RayMap, size_px: float) -> NDArray[np.bool_]:
+    """Return around which pixels (n,) an edge may cross a square of a size, px.
+
+    By a bound that needs no Jacobian per pixel.
+    """
+    spread = size_px * rays.spread[meeting.pixels] / meeting.inverse_depth
     half = np.empty_like(meeting.uv)
     for axis in range(2):
         x, row, last = meeting.uv[:, axis], meeting.inverse[axis], meeting.inverse[2]

@@ -1,7 +1,8 @@
 """Draws a scene: each pixel's ray is traced through the lens to the board, whose share of the pixel is exact.
 
-Within a pixel the board's coordinates are taken as affine, which costs less than a tenth of a grey level;
-blur and noise follow on unrounded values. Not here: areas (`coverage`), pattern (`board`), sensor (`sensor`).
+Within a pixel the board's coordinates are taken as affine, which costs less than a tenth of a grey level. A
+little of the lens's blur comes before the pixels, as all of it does in a camera; the rest and noise follow on
+unrounded values. Not here: areas (`coverage`), pattern (`board`), sensor (`sensor`).
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from service.simulator.lighting import lamp_gain, lens_falloff
 from service.simulator.meeting import Meeting, board_jacobian, may_meet_edge, meet_board
 from service.simulator.ray_map import RayMap, trace_rays
 from service.simulator.scene import Scene
-from service.simulator.sensor import expose
+from service.simulator.sensor import expose, first_blur
 
 
 @dataclass(frozen=True)
@@ -63,8 +64,12 @@ def _draw_board(prepared: PreparedScene, pose: Pose, meeting: Meeting, light: Ar
     """Put the plate's light into `light` (h, w): sampled at pixel centres, exact where edges are near."""
     scene, rays = prepared.scene, prepared.rays
     plate, dark = prepared.plate.sample(meeting.uv)
-    near = np.flatnonzero(may_meet_edge(meeting, prepared.plate, rays))
-    plate[near], dark[near] = prepared.plate.shares(meeting.uv[near], board_jacobian(meeting, rays, near))
+    offsets = first_blur(scene.blur_px)
+    size_px = 1.0 + 2.0 * float(np.abs(offsets).max())
+    near = np.flatnonzero(may_meet_edge(meeting, prepared.plate, rays, size_px))
+    uv, jacobian = meeting.uv[near], board_jacobian(meeting, rays, near)
+    parts = [prepared.plate.shares(uv + jacobian @ offset, jacobian) for offset in offsets]
+    plate[near], dark[near] = np.mean(parts, axis=0)
     if pose.rotation[:, 2] @ pose.tvec < 0:  # the back of the plate has no pattern
         dark[:] = 0.0
     reflected = scene.white_grey * plate + (scene.dark_grey - scene.white_grey) * dark

@@ -17,14 +17,15 @@ class CaptureLimits:
     """What a frame must meet to be captured, and for how long.
 
     dwell_s: how long every frame must meet it. still_px: mean corner motion between two frames, at most.
-    longest_gap_s: frames that are farther apart say nothing about stillness. sharp_px: widest 10–90 % edge.
+    longest_gap_s: frames that are farther apart say nothing about stillness; a slow link or a busy computer
+    that brings two in a second must still be able to capture. sharp_px: widest 10–90 % edge.
     darkest, brightest: bounds of the grey level of the board's bright squares. glare_share: of these squares,
     how much may be saturated.
     """
 
     dwell_s: float = 0.5
     still_px: float = 2.5
-    longest_gap_s: float = 0.3
+    longest_gap_s: float = 1.0
     sharp_px: float = 4.5
     darkest: float = 40.0
     brightest: float = 250.0

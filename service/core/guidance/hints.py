@@ -66,6 +66,8 @@ MOST_INSTRUCTIONS: Final = 2
 EFFECT_SHARE: Final = 0.6
 # A hint that is being followed is kept until its error is within this share of its tolerance.
 KEPT_UNTIL: Final = 0.7
+# Of its tolerance: what an error must exceed to be mended for the room that it takes at the picture's border.
+SPARE: Final = 0.3
 # What is far for a hand, and how much of that may be left: each step is about 1.6 times the one before.
 # Not in tolerances: they say how exactly a board must be held, and not how long it takes to get there.
 FAR_M: Final = 0.25
@@ -104,20 +106,27 @@ def choose_hints(
     sizes = list(errors.values())
     wanted = [i for i in range(len(hints)) if sizes[i] > limits[i]] or [max(range(6), key=sizes.__getitem__)]
     ordered = sorted(wanted, key=lambda i: (_place(hints[i], previous), -_way_share(i, difference)))
-    return tuple(hints[i] for i in _choose_safe(ordered, difference))
+    spare = sorted({i for i in range(6) if sizes[i] > SPARE} - set(wanted), key=lambda i: -sizes[i])
+    return tuple(hints[i] for i in _choose_safe(ordered, spare, difference))
 
 
-def _choose_safe(ordered: list[int], difference: PoseDifference) -> list[int]:
+def _choose_safe(ordered: list[int], spare: list[int], difference: PoseDifference) -> list[int]:
     """Return which of the wanted movements, by their axes, keep the board in the picture.
 
     First what is safe alone, with others that are safe beside it. Else two that are only safe together: one
-    makes room for the other. Else what is safe for half of its way, and at last whatever is wanted.
+    makes room for the other. That one may be spare, of an error that matters only for the room it takes; else
+    a spare one alone. Else what is safe for half of its way, and at last whatever is wanted.
     """
     alone = ([i] for i in ordered if not difference.leads_out[i])
     pairs = (list(pair) for pair in combinations(ordered, 2) if not _lead_out(list(pair), difference))
     safe = next(chain(alone, pairs), None)
     if safe is not None:
         return _add_safe(safe, ordered, difference)
+    for_room = ([i, j] for i in spare for j in ordered if not _lead_out([i, j], difference))
+    spare_alone = ([i] for i in spare if not difference.leads_out[i])
+    room = next(chain(for_room, spare_alone), None)
+    if room is not None:
+        return room
     half = [i for i in ordered if not difference.half_leads_out[i]]
     return (half or ordered)[:1]
 

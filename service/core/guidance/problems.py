@@ -85,10 +85,3 @@ class RevisionRetired(Conflict):
 
     code = "revision-retired"
     title = "The SKU was revised since the run was opened"
-
-
-class TargetNotGuided(Unprocessable):
-    """Live guidance does not know this kind of target."""
-
-    code = "target-not-guided"
-    title = "No guidance for this target"

@@ -26,6 +26,7 @@ from service.core.guidance.actions import (
 )
 from service.core.guidance.auto_capture import Obstacle, dwell_share, extend_dwell, find_obstacles
 from service.core.guidance.comparison import compare_pose, is_match
+from service.core.guidance.feature_order import in_order_of
 from service.core.guidance.hints import choose_hints
 from service.core.guidance.observation import Observation
 from service.core.guidance.session_poses import add_pose, afresh, despair, give_up, next_pose, postpone, weigh
@@ -101,10 +102,12 @@ def _timed(state: SessionState, now: Observation) -> SessionState:
 
 def _judge(state: SessionState, now: Observation, settings: GuidanceSettings) -> SessionState:
     """Return the state after a frame, without asking for anything."""
+    expected = None if state.current is None else state.expected[state.current]
+    if expected is not None:
+        now = in_order_of(expected, now, state.last, settings.target)
     bare = replace(state, last=now, difference=None, obstacles=(), moves=(), dwell=None)
-    if now.kind != "present" or now.pose is None or state.current is None:
+    if now.kind != "present" or now.pose is None or expected is None:
         return bare
-    expected = state.expected[state.current]
     difference = compare_pose(expected, now.pose, settings.intrinsics, settings.target)
     moves = choose_hints(difference, settings.tolerances, state.moves)
     matched = is_match(difference, settings.tolerances)

@@ -23,10 +23,10 @@ class CornerNoise:
     """Standard deviation of a detected corner, px per coordinate.
 
     level_px: of a frontal board with squares of 30 px whose picture is as sharp as the lens makes it; times
-    powers of the smallest square over 30 px (by_square), of the cosine of the largest incidence (by_slant),
-    of the blur's sigma over 0.7 px (by_blur). aliasing_px: what the pixel grid adds, in squares, where edges
-    run along it and blur is 0.7 px; it falls with the blur (aliasing_by_blur). source: where the numbers come
-    from.
+    powers of the smallest square over 30 px (by_square; beyond 30 px more of an edge is not looked at), of
+    the cosine of the largest incidence (by_slant), of the blur's sigma over 0.7 px (by_blur). aliasing_px:
+    what the pixel grid adds, in squares, where edges run along it and blur is 0.7 px; it changes with a power
+    of the blur (aliasing_by_blur). source: where the numbers come from.
     """
 
     level_px: float
@@ -39,7 +39,7 @@ class CornerNoise:
 
     def sigma_px(self, seen: Visibility, blur_px: Array) -> Array:
         """Return the noise (m,) of m poses, from what they look like and their blur (m,), sigma in px."""
-        square = np.maximum(seen.smallest_square_px, 1.0) / REFERENCE_SQUARE_PX
+        square = np.clip(seen.smallest_square_px, 1.0, REFERENCE_SQUARE_PX) / REFERENCE_SQUARE_PX
         slant = np.maximum(np.cos(seen.incidence_rad), SMALLEST_COSINE)
         blur = blur_px / REFERENCE_BLUR_PX
         random = self.level_px * square**self.by_square * slant**self.by_slant * blur**self.by_blur
@@ -55,13 +55,13 @@ class CornerNoise:
 # By `python -m bench corner_noise`: 360 poses of the paper's lenses under a line's light, noise of 2 grey
 # levels; the logarithm scatters by 0.07 about it.
 FITTED_NOISE: Final = CornerNoise(
-    level_px=0.0091,
-    by_square=0.0067,
-    by_slant=-0.1385,
-    by_blur=0.1429,
-    aliasing_px=0.0097,
-    aliasing_by_blur=-0.3832,
-    source="fit of 2026-11: rendered boards, saddle-fit detector (bench corner_noise)",
+    level_px=0.0043,
+    by_square=-0.4524,
+    by_slant=-0.1949,
+    by_blur=0.4366,
+    aliasing_px=0.0023,
+    aliasing_by_blur=0.4380,
+    source="fit of 2026-11: rendered boards, corners where edges cross (bench corner_noise)",
 )
 
 

@@ -30,11 +30,11 @@ FARTHEST_ASIDE_RAD = float(np.deg2rad(62.0))
 class Visibility:
     """What m poses look like; arrays (m,), NaN where the lens has no image; image_points (m, n, 2) px.
 
-    clearance_px: least distance of a corner from the image border, negative outside. smallest_square_px:
-    shortest side of a square. incidence_rad: largest angle between the board's normal and the line of sight
-    to a corner. lens_share: how far out the outermost corner is, as a share of the reach of the lens.
-    aside_rad: angle between the optical axis and the line of sight to the target's centre. nearest_m,
-    farthest_m: smallest and largest depth of a corner. columns: of the target's corners.
+    clearance_px: least distance of a corner, or of a dot's rim, from the image border, negative outside.
+    smallest_square_px: shortest side of a square. incidence_rad: largest angle between the board's normal and
+    the line of sight to a corner. lens_share: how far out the outermost corner is, as a share of the reach of
+    the lens. aside_rad: angle between the optical axis and the line of sight to the target's centre.
+    nearest_m, farthest_m: smallest and largest depth of a corner. columns: of the target's corners.
     """
 
     clearance_px: Array
@@ -85,7 +85,7 @@ def measure_visibility(
     length = np.sqrt(points[..., 0] ** 2 + points[..., 1] ** 2 + points[..., 2] ** 2)
     cosine = (points @ rotations[:, :, 2, None])[..., 0] / length
     return Visibility(
-        clearance_px=to_border.min(axis=(1, 2)),
+        clearance_px=(to_border.min(axis=2) - _reach_px(intrinsics, target, points)).min(axis=1),
         smallest_square_px=_shortest_side(pixels, target),
         incidence_rad=np.arccos(np.clip(cosine.min(axis=1), -1.0, 1.0)),
         lens_share=reach_share(intrinsics, points).max(axis=1),
@@ -117,11 +117,13 @@ def place_targets(
     margin_px += PLACING_SLACK_PX
     centre_px = np.tile((size - 1.0) / 2.0, (len(rotations), 1))
     outline = target.object_points[list(target.outer_corners)]
+    turned = outline @ np.swapaxes(rotations, -1, -2)
     translations = _translations(intrinsics, target, rotations, distances, centre_px)
     for _ in range(PLACING_ROUNDS):
         pixels = project(intrinsics, rotations, translations, outline)
-        low = margin_px + centre_px - pixels.min(axis=1)
-        high = size - 1.0 - margin_px - (pixels.max(axis=1) - centre_px)
+        reach = _reach_px(intrinsics, target, turned + translations[:, None])[..., None]
+        low = margin_px + centre_px - (pixels - reach).min(axis=1)
+        high = size - 1.0 - margin_px - ((pixels + reach).max(axis=1) - centre_px)
         centre_px = np.where(low <= high, low + shares * (high - low), np.nan)
         translations = _translations(intrinsics, target, rotations, distances, centre_px)
     return translations
@@ -135,6 +137,14 @@ def _translations(
     centres = rays * (distances / np.linalg.norm(rays, axis=1))[:, None]
     translations: Array = centres - rotations @ target.centre
     return translations
+
+
+def _reach_px(intrinsics: Intrinsics, target: Target, points: Array) -> Array:
+    """Return how far, px (...), the print of features at points (..., 3) m, camera frame, reaches at most."""
+    scale = float(np.diag(intrinsics.camera_matrix)[:2].max())
+    with np.errstate(divide="ignore"):
+        reach: Array = target.reach_m * scale * np.linalg.norm(points, axis=-1) / points[..., 2] ** 2
+    return reach
 
 
 def _shortest_side(pixels: Array, target: Target) -> Array:

@@ -2,10 +2,9 @@
 
 Necessary and never sufficient: a duplicated view, a wrong board and two mixed cameras all fit well.
 
-Pictures rendered without blur and noise, whose corners are off by their rounding to 8 bits only, still leave
-an RMS of 0.010 to 0.014 px, rendered ones with a sensor's noise 0.016 px, the best real ones 0.08 px. What
-fits better than half of the first was never in a picture: corners that were computed, or a file that was made
-up.
+Pictures rendered without noise, whose corners are off by their rounding to 8 bits only, still leave an RMS of
+0.003 px, rendered ones with a sensor's noise 0.007 px, the best real ones 0.08 px. What fits better than half
+of the first was never in a picture: corners that were computed, or a file that was made up.
 """
 
 import numpy as np

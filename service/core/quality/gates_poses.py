@@ -16,6 +16,7 @@ from service.core.quality.gates import Measurement, check_limit, report_value
 from service.core.quality.gates_frame import NAMES_SHOWN, name_some, some_views
 from service.core.quality.reasons import Reason
 from service.core.vision.camera import project
+from service.core.vision.half_turn import mean_distances
 from service.core.vision.outer_features import outer_places
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, stack_poses
@@ -43,11 +44,12 @@ def match_distances(
     outer, detection = list(target.outer_corners), view.detection
     seen = outer_places(detection.image_points, detection.corner_ids, target, expectation.nominal)
     expected = project(expectation.nominal, *stack_poses(poses), target.object_points[outer])
-    distances = np.linalg.norm(expected - seen, axis=-1)
     present = np.isfinite(seen[:, 0])
     if not present.any():
         return np.full(len(poses), np.nan)
-    mean: Array = distances[:, present].mean(axis=1)
+    if present.all():
+        return mean_distances(seen, expected, target)
+    mean: Array = np.linalg.norm(expected - seen, axis=-1)[:, present].mean(axis=1)
     return mean
 
 

@@ -18,14 +18,18 @@ LARGE_IMAGE_PX = (
 
 
 def _default_shares() -> dict[str, float]:
-    """Shares where 0.8 does not suit: nothing covers more than 100 %, no lens has edges of 0 px,
-    a pose within its tolerance was taken as asked, and another SKU that is likelier at all is worth a look.
+    """Shares where 0.8 does not suit: nothing covers more than 100 %, no lens has edges of 0 px, a pose
+    within its tolerance was taken as asked, views that agree have a ratio of one or more (by noise alone 1.02
+    with eight of them, 1.25 where they are ill-chosen), halves that agree differ by 1.7 now and then, another
+    SKU that is likelier is worth a look.
     """
     return {
         "coverage": 0.944,
         "match_share": 1.0,
         "edge_width_px": 0.9,
         "quadrant_ratio": 0.9,
+        "half_difference": 0.9,
+        "held_out_ratio": 0.95,
         "monotone_ratio": 0.95,
         "population_distance": 0.9,
         "other_population": 0.0,
@@ -51,7 +55,7 @@ class Limits:
     )
     coverage: float = 0.85  # share of the working zone within the hull of all corners
     rms_px: float = 0.35
-    smallest_rms_px: float = 0.005  # half of what rounding to 8 bits alone leaves, see gates_fit
+    smallest_rms_px: float = 0.0015  # rounding to 8 bits alone leaves 0.002
     worst_view_ratio: float = 2.0
     outlier_share: float = 0.01
     focal_sd_share: float = 0.001

@@ -33,8 +33,9 @@ from service.core.quality.gates_poses import measure_poses
 from service.core.quality.gates_score import Score, measure_score, score_against
 from service.core.quality.gates_sharpness import measure_sharpness
 from service.core.quality.limits import Limits, default_limits
+from service.core.quality.place import find_place
 from service.core.vision.calibration import CalibrationResult, View, calibrate_intrinsics
-from service.core.vision.extrinsics import Extrinsics, estimate_extrinsics
+from service.core.vision.extrinsics import Extrinsics
 from service.core.vision.residuals import mean_reprojection_error
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array
@@ -89,7 +90,8 @@ def calibrate_and_judge(
     than the SKU's (without SKU: than the majority's) join them. board: where the corners of the plate itself
     are, (n, 3) m; by default where the target has them. fixed_target: pictures that say where the camera is
     in the vehicle. Gates that need a SKU are left out without an expectation. Raises TooFewViews (naming each
-    refused image with its reason), DegenerateViews, and PoseUndetermined of the fixed target.
+    refused image with its reason), DegenerateViews; WrongImageSize
+    and PoseUndetermined of the fixed target.
     """
     image_size = _image_size(detections, expectation)
     kept = [i for i, named in enumerate(detections) if named.detection.image_size == image_size]
@@ -99,6 +101,7 @@ def calibrate_and_judge(
     refusals = (*refused, *odd)
     views = tuple(detections[i] for i in kept)
     _check_enough(views, refusals)
+    _check_sizes(() if fixed_target is None else fixed_target.views, image_size)
     answers = expectation.pose_of_view if expectation else None
     nominal = expectation.nominal if expectation else None
     corners = target.object_points if board is None else board
@@ -169,8 +172,7 @@ def _extrinsics(evidence: Evidence) -> Extrinsics | None:
     fixed, result = evidence.fixed_target, evidence.result
     if fixed is None:
         return None
-    views = _solver_views(fixed.views, fixed.target.object_points)
-    return estimate_extrinsics(views, result.intrinsics, result.covariance, fixed.place)
+    return find_place(fixed, result.intrinsics, result.covariance)
 
 
 def _solver_views(views: Sequence[NamedDetection], board: Array) -> list[View]:
@@ -191,6 +193,19 @@ def _refuse_size(named: NamedDetection, image_size: tuple[int, int]) -> Refusal:
         f"The image has {width}x{height} px, this camera {image_size[0]}x{image_size[1]} px; leave it out."
     )
     return Refusal(named.name, WrongImageSize.code, detail)
+
+
+def _check_sizes(views: Sequence[NamedDetection], image_size: tuple[int, int]) -> None:
+    """Raise WrongImageSize where a picture of the fixed target has not the size of the camera's images."""
+    for view in views:
+        if view.detection.image_size != image_size:
+            width, height = view.detection.image_size
+            raise WrongImageSize(
+                f"{view.name} has {width}x{height} px, the camera's images {image_size[0]}x{image_size[1]}. "
+                "Take the picture of the fixed target with this camera, at its full size.",
+                found=[width, height],
+                expected=list(image_size),
+            )
 
 
 def _check_enough(views: Sequence[NamedDetection], refused: Sequence[Refusal]) -> None:

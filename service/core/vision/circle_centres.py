@@ -2,17 +2,17 @@
 
 The image of a disc's centre is not the centroid of the disc's image: perspective and lens stretch the near
 half of a dot more than the far one. The mapping from board to image is known well enough from the dots
-themselves - a homography and a smooth rest - to say by how much, and this is taken off.
-Not here: finding the grid (`circle_grid`).
+themselves (`board_map`) to say by how much, and this is taken off.
+Not here: finding the grid (`circle_grid`), the rims of dots (`dot_rims`).
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
+from service.core.vision.board_map import fit_board_map
 from service.core.vision.circle_grid import apply_homography, fit_homography
 from service.core.vision.light import LightFall
-from service.core.vision.sampling import FloatImage
+from service.core.vision.map_form import BoardMap
+from service.core.vision.sampling import FloatImage, middle_of
 from service.core.vision.target_circles import Circles
 from service.core.vision.transforms import Array
 
@@ -20,57 +20,31 @@ ROUNDS = 3
 RIM_POINTS = 48
 SOFT_RIM_PX = 4.0  # beyond a dot's rim: the blur of a picture that can be used
 GAP_SHARE = 0.45  # of the way to the next dot's rim
-DOTS_FOR_CUBIC = 16  # fewer, and the smooth rest is a square
-
-
-@dataclass(frozen=True)
-class SmoothMap:
-    """From the board, m, to the image, px: a homography and a polynomial of the board's coordinates."""
-
-    H: Array
-    coefficients: Array
-    degree: int
-    middle: Array
-    scale: float
-
-    def image_of(self, points: Array) -> Array:
-        """Return where board points (..., 2) are, px."""
-        terms = _terms((points - self.middle) / self.scale, self.degree)
-        return apply_homography(self.H, points) + terms @ self.coefficients
 
 
 def refine_centres(image: FloatImage, light: LightFall, first: Array, target: Circles) -> Array:
     """Return the images (n, 2), px, of the dots' centres, from centres (n, 2) that are right to a pixel."""
     points, bias = first, np.zeros_like(first)
+    middle = middle_of(image)
     for _ in range(ROUNDS):
         centroids = _centroids(image, light, points + bias, target)
-        bias = centroid_bias(fit_smooth_map(target, centroids - bias), target)
+        board_map = fit_board_map(target.object_points[:, :2], centroids - bias, middle)
+        bias = centroid_bias(board_map, target)
         points = centroids - bias
     return points
 
 
-def centroid_bias(smooth: SmoothMap, target: Circles) -> Array:
+def centroid_bias(board_map: BoardMap, target: Circles) -> Array:
     """Return by how much (n, 2), px, the centroids of dots' images are off the images of their centres."""
     angle = np.arange(RIM_POINTS) * (2.0 * np.pi / RIM_POINTS)
     rim = 0.5 * target.diameter_m * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     centres = target.object_points[:, :2]
-    middle = smooth.image_of(centres)
-    outline = smooth.image_of(centres[:, None] + rim) - middle[:, None]
+    middle = board_map.image_of(centres)
+    outline = board_map.image_of(centres[:, None] + rim) - middle[:, None]
     following = np.roll(outline, -1, axis=1)
     twice = outline[..., 0] * following[..., 1] - outline[..., 1] * following[..., 0]
     moment = ((outline + following) * twice[..., None]).sum(axis=1)
     return np.asarray(moment / (3.0 * twice.sum(axis=1)[:, None]))
-
-
-def fit_smooth_map(target: Circles, points: Array) -> SmoothMap:
-    """Return the mapping that takes the dots' centres to points (n, 2) px, as smooth as their number asks."""
-    board = target.object_points[:, :2]
-    degree = 3 if len(board) >= DOTS_FOR_CUBIC else 2
-    middle, H = target.centre[:2], fit_homography(target, points)
-    scale = float(np.abs(board - middle).max())
-    terms = _terms((board - middle) / scale, degree)
-    rest = np.linalg.lstsq(terms, points - apply_homography(H, board), rcond=None)[0]
-    return SmoothMap(H, np.asarray(rest), degree, middle, scale)
 
 
 def _centroids(image: FloatImage, light: LightFall, points: Array, target: Circles) -> Array:
@@ -105,13 +79,3 @@ def _centroid(image: FloatImage, light: LightFall, point: Array, within: tuple[A
     weight = window * (bright - image[low_y:high_y, low_x:high_x]) / np.maximum(bright - dark, 1.0)
     total = max(float(weight.sum()), 1e-9)
     return np.array([float((weight * x).sum()), float((weight * y).sum())]) / total
-
-
-def _terms(p: Array, degree: int) -> Array:
-    """Return the monomials (..., t) of points (..., 2).
-
-    The linear ones too: the homography has taken from the cubic ones what looks linear.
-    """
-    x, y = p[..., 0], p[..., 1]
-    powers = [(i, total - i) for total in range(degree + 1) for i in range(total + 1)]
-    return np.stack([x**i * y**j for i, j in powers], axis=-1)

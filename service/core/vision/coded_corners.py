@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.coded import CodedTarget
+from service.core.vision.edge_crossing import CROSSING_PX, edges_on_board, refine_crossings
 from service.core.vision.marker_detection import Markers, map_points
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage, sample_bilinear
@@ -133,6 +134,20 @@ def refine_corners(image: FloatImage, corners: Corners, wanted_px: float, target
     radii = np.clip(np.minimum(np.rint(wanted_px), room), *DISC_RADII_PX).astype(np.int64)
     points, proven = refine_saddles(image, corners.points, radii, iterations=20)
     return Corners(corners.ids, points, corners.scale).part(proven)
+
+
+def cross_edges(
+    image: FloatImage, corners: Corners, sigma_px: float, middle: Array, target: CodedTarget
+) -> Corners:
+    """Return the corners where their edges cross in an evenly lit image.
+
+    sigma_px: of the edges' blur; middle: (2,) px, of the whole picture, of which the image may be a part.
+    """
+    board = target.object_points[corners.ids, :2]
+    edges = edges_on_board(board, corners.points, target.square_m, middle)
+    room = target.disc_m * np.linalg.norm(corners.scale, axis=1).min(axis=1)
+    points, _ = refine_crossings(image, corners.points, edges, np.minimum(room, CROSSING_PX), sigma_px)
+    return Corners(corners.ids, points, corners.scale)
 
 
 def _checked(blurred: FloatImage, corners: Corners, target: CodedTarget) -> Corners:

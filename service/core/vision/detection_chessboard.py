@@ -1,7 +1,8 @@
 """From a captured image to the corners of the declared chessboard, or to the reason why not.
 
 Full resolution and careful, for a capture; a live frame has another detector. Corners are looked for at
-several scales, numbered, completed and proven in the full image, and refined by a saddle fit.
+several scales, numbered, completed and proven in the full image, refined by a saddle fit and then by the
+edges that cross there.
 Not here: limits on sharpness, parity and contrast (`quality.gates`); poses.
 """
 
@@ -25,6 +26,12 @@ from service.core.vision.board import (
 from service.core.vision.corner_candidates import find_corners
 from service.core.vision.corner_grid import CornerGrid, link_corners, number_corners
 from service.core.vision.detected import SMALLEST_IMAGE_PX, Detection, check_grey_image
+from service.core.vision.edge_crossing import (
+    CROSSING_PX,
+    EDGE_WIDTHS_OF_SIGMA,
+    edges_on_board,
+    refine_crossings,
+)
 from service.core.vision.grid_growth import complete_grid, measure_steps, room_px
 from service.core.vision.light import (
     LightFall,
@@ -37,7 +44,7 @@ from service.core.vision.light import (
 from service.core.vision.outer_lines import SHARE_OF_A_SURE_LINE, whole_lines, without_rims
 from service.core.vision.parity import Parity, measure_parity
 from service.core.vision.saddle import refine_saddles
-from service.core.vision.sampling import FloatImage, smooth
+from service.core.vision.sampling import FloatImage, middle_of, smooth
 from service.core.vision.sharpness import Sharpness, measure_sharpness
 from service.core.vision.target_chessboard import Chessboard
 from service.core.vision.transforms import Array
@@ -45,7 +52,7 @@ from service.core.vision.transforms import Array
 COMFORTABLE_PX = 800  # long side at which most boards are found first
 GRIDS_PER_SCALE = 3
 PROVING_SIGMA_PX = 1.2
-REFINING_SIGMA_PX = 1.0
+REFINING_SIGMA_PX = 0.7  # so that no edge is narrower than pixels can tell
 DISC_RADII_PX = (3.0, 8.0)
 DISC_PER_EDGE_WIDTH = 1.5
 DISC_PER_SQUARE = 0.4
@@ -149,18 +156,22 @@ def _refined(
 ) -> Array:
     """Return corners (n, 2) px fitted under even light; raises TargetNotVisible if one cannot be.
 
-    The disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide disc.
-    Near the border of the image there is less room.
+    The saddle's disc grows with the blur: a wide edge is flat near the corner, and a narrow one needs no wide
+    disc. Near the border of the image there is less room.
     """
     width = sharpness.edge_width_px if np.isfinite(sharpness.edge_width_px) else 0.0
     wanted = np.clip(np.rint(DISC_PER_EDGE_WIDTH * width), *DISC_RADII_PX)
     square = measure_steps(corners).square_px.ravel()
-    room = np.minimum(np.floor(DISC_PER_SQUARE * square), np.floor(room_px(blurred, corners.reshape(-1, 2))))
-    radii = np.maximum(np.minimum(wanted, room), 2).astype(np.int64)
+    room = np.minimum(DISC_PER_SQUARE * square, room_px(blurred, corners.reshape(-1, 2)))
+    radii = np.maximum(np.minimum(wanted, np.floor(room)), 2).astype(np.int64)
     even, origin = even_out(blurred, light, corners.reshape(-1, 2), margin_px=int(3 * DISC_RADII_PX[1]))
-    points, proven = refine_saddles(even, corners.reshape(-1, 2) - origin, radii, iterations=20)
+    saddles, proven = refine_saddles(even, corners.reshape(-1, 2) - origin, radii, iterations=20)
     if not proven.all():
         raise refuse_partial(int(proven.sum()), target)
+    board = target.object_points[:, :2]
+    edges = edges_on_board(board, saddles, target.square_m, middle_of(blurred) - origin)
+    sigma = np.hypot(width / EDGE_WIDTHS_OF_SIGMA, REFINING_SIGMA_PX)
+    points, _ = refine_crossings(even, saddles, edges, np.minimum(room, CROSSING_PX), float(sigma))
     return points + origin
 
 

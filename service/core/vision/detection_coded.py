@@ -1,7 +1,7 @@
 """From a captured image to the corners of a board with markers, as many as can be seen.
 
-Markers say which corner is where, to a pixel or two; each is then refined by a saddle fit under even light,
-and kept where the surface around it is dark and bright as it must be there.
+Markers say which corner is where, to a pixel or two; each is then refined by a saddle fit under even light
+and by the edges that cross there, and kept where the surface around it is dark and bright as it must be.
 Not here: finding markers (`marker_detection`), limits (`quality.gates`).
 """
 
@@ -13,11 +13,13 @@ from service.core.vision.coded import CodedTarget
 from service.core.vision.coded_corners import (
     DISC_RADII_PX,
     Corners,
+    cross_edges,
     find_corners_of,
     first_corners,
     refine_corners,
 )
 from service.core.vision.detected import Detection, check_grey_image
+from service.core.vision.edge_crossing import EDGE_WIDTHS_OF_SIGMA
 from service.core.vision.light import CLIPPED, Cells, check_exposure, even_out, fit_light
 from service.core.vision.marker_detection import (
     Markers,
@@ -28,14 +30,14 @@ from service.core.vision.marker_detection import (
 )
 from service.core.vision.marker_refusal import check_ids, check_layout, refuse_few, refuse_markers
 from service.core.vision.parity import measure_parity
-from service.core.vision.sampling import FloatImage, sample_bilinear, smooth
+from service.core.vision.sampling import FloatImage, middle_of, sample_bilinear, smooth
 from service.core.vision.sharpness import PLACES, Sharpness, measure_edges
 from service.core.vision.transforms import Array
 
 LEAST_MARKERS = 2
 LEAST_CORNERS = 12
 LEAST_LINES = 3
-REFINING_SIGMA_PX = 1.0
+REFINING_SIGMA_PX = 0.7
 DISC_PER_EDGE_WIDTH = 1.5
 REACH = 0.9  # of what is plain beside an edge
 LEAST_SEPARATION = 0.2
@@ -70,8 +72,11 @@ def detect_coded(image: NDArray[np.uint8], target: CodedTarget) -> Detection:
     saturated = check_exposure(float(np.mean(cells.levels[cells.bright] >= CLIPPED)))
     even, origin = even_out(blurred, light, corners.points, margin_px=3 * DISC_RADII_PX[1])
     moved = Corners(corners.ids, corners.points - origin, corners.scale)
-    final = refine_corners(even, moved, DISC_PER_EDGE_WIDTH * np.nan_to_num(sharpness.edge_width_px), target)
-    _check_enough(final, target)
+    width = float(np.nan_to_num(sharpness.edge_width_px))
+    saddles = refine_corners(even, moved, DISC_PER_EDGE_WIDTH * width, target)
+    _check_enough(saddles, target)
+    sigma = float(np.hypot(width / EDGE_WIDTHS_OF_SIGMA, REFINING_SIGMA_PX))
+    final = cross_edges(even, saddles, sigma, middle_of(image) - origin, target)
     return Detection(
         image_points=final.points + origin,
         corner_ids=final.ids,

@@ -21,6 +21,11 @@ class SquareGrid:
     square_m: float
 
     @property
+    def reach_m(self) -> float:
+        """Nothing: an inner corner is seen as soon as it is in the picture."""
+        return 0.0
+
+    @property
     def object_points(self) -> Array:
         """Inner corners (rows * columns, 3), m: row by row, z = 0."""
         row, column = np.divmod(np.arange(self.rows * self.columns), self.columns)

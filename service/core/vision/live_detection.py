@@ -2,7 +2,7 @@
 
 At half size, from a bounded number of candidates, and refined only as far as guidance needs; what is captured
 is detected again, carefully (`detection`). A frame without a board costs no more than one with a board.
-Boards with markers go another way from the grids on (`live_coded`).
+Boards with markers go another way from the grids on (`live_coded`), dots their own (`live_circles`).
 Not here: poses, hints, and limits on sharpness or light.
 """
 
@@ -10,12 +10,14 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from service.core.errors import TargetSpecInvalid
 from service.core.vision.board import is_larger, is_whole, order_corners
 from service.core.vision.corner_candidates import Corners
 from service.core.vision.corner_grid import CornerGrid, keep_squares, link_corners, number_corners
 from service.core.vision.detection import check_grey_image
 from service.core.vision.grid_growth import grow_grid
 from service.core.vision.live_choice import choose_grid, is_sure_and_larger, may_be_a_board
+from service.core.vision.live_circles import detect_live_circles
 from service.core.vision.live_coded import detect_live_coded
 from service.core.vision.live_corners import LiveWorkspace, find_live_corners, refine_on_pixels, smooth_frame
 from service.core.vision.live_detected import LIVE_SCALE, BoardKind, LiveDetection
@@ -23,35 +25,40 @@ from service.core.vision.live_look import measure_look
 from service.core.vision.outer_lines import whole_lines, without_rims
 from service.core.vision.saddle import refine_saddles
 from service.core.vision.sampling import FloatImage
+from service.core.vision.target import Target
 from service.core.vision.target_aprilgrid import AprilGrid
 from service.core.vision.target_charuco import Charuco
 from service.core.vision.target_chessboard import Chessboard
+from service.core.vision.target_circles import Circles
 
-__all__ = ["BoardKind", "LiveDetection", "LiveTarget", "LiveWorkspace", "detect_live"]
+__all__ = ["BoardKind", "LiveDetection", "LiveWorkspace", "detect_live"]
 
 GRIDS = 3  # linked grids that are looked into, the one with most contrast first
 SHARE_OF_A_RIVAL = 0.6  # of the target's corners that a second board must show before it is grown
 ROUNDS = 1  # of growth, by a line on each side
 DISC_PX = 2  # of the last saddle fit
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
-LiveTarget = Chessboard | Charuco | AprilGrid
 
 
 def detect_live(
-    image: NDArray[np.uint8], target: LiveTarget, workspace: LiveWorkspace | None = None, *, scale: int = 1
+    image: NDArray[np.uint8], target: Target, workspace: LiveWorkspace | None = None, *, scale: int = 1
 ) -> LiveDetection:
     """Return what a grey frame (h, w) shows of a target.
 
     scale: full-size pixels per pixel of the frame, 1 or 2: a frame that is sent at half size (means of 2x2)
     has 2. Corners are in full-size pixels either way. workspace: None to work without buffers.
-    Raises Unprocessable when the array is no grey image.
+    Raises Unprocessable when the array is no grey image, TargetSpecInvalid for a kind that is not known here.
     """
     image = check_grey_image(image)
     workspace = LiveWorkspace() if workspace is None else workspace
     half = image if scale == LIVE_SCALE else halve(image)
     if isinstance(target, Chessboard):
         return _detect_chessboard(half, target, workspace)
-    return detect_live_coded(half, target, workspace)
+    if isinstance(target, Circles):
+        return detect_live_circles(half, target)
+    if isinstance(target, Charuco | AprilGrid):
+        return detect_live_coded(half, target, workspace)
+    raise TargetSpecInvalid(f"A {target.name} cannot be detected in live frames.", spec=target.spec)
 
 
 def _detect_chessboard(

@@ -16,6 +16,7 @@ ITERATIONS = 12
 SMALL_STEP = 1e-7
 BISECTIONS = 24
 FARTHEST = 12.0  # ideal radius, 85 degrees
+CLEARLY = 8.0  # times as far beyond the fold as its tangential part may move it
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,8 @@ class PerspectiveLens:
         iteration of five steps (OpenCV's default) is up to a pixel off.
         """
         limit = self.reach_of(k)
+        # No direction leads there: the iterations would go on to their last for nothing.
+        image = np.where(self._is_beyond(image, k, limit)[..., None], np.nan, image)
         ideal, good = self._newton(image, k, _inside(image, 0.99 * limit), limit)
         left = ~good & np.isfinite(image).all(axis=-1)
         if np.any(left):
@@ -66,6 +69,22 @@ class PerspectiveLens:
             ideal[left], good[left] = self._newton(image[left], k, start, limit)
         rays = np.concatenate([ideal, np.ones_like(ideal[..., :1])], axis=-1)
         return np.where(good[..., None], rays, np.nan)
+
+    def _is_beyond(self, image: Array, k: Array, limit: float) -> NDArray[np.bool_]:
+        """Return which image points (...) are clearly beyond the image of the fold.
+
+        On the fold, opposite points have opposite radial parts and the same tangential one, whose share moves
+        the image of the fold by about its square.
+        """
+        if limit > FARTHEST:
+            return np.zeros(image.shape[:-1], dtype=np.bool_)
+        radius = np.linalg.norm(image, axis=-1)
+        # A little before it, as it may be a pole.
+        fold = image * ((1.0 - 1e-6) * limit / np.maximum(radius, 1e-12))[..., None]
+        here, opposite = self.distort(fold, k), self.distort(-fold, k)
+        across = np.linalg.norm(here - opposite, axis=-1)
+        share = np.linalg.norm(here + opposite, axis=-1) / np.maximum(across, 1e-12)
+        return np.asarray(radius > np.linalg.norm(here, axis=-1) * (1.0 + 1e-9 + CLEARLY * share**2))
 
     def _newton(self, image: Array, k: Array, ideal: Array, limit: float) -> tuple[Array, NDArray[np.bool_]]:
         """Return ideal coordinates (..., 2) from a start, and whether they give the image (...)."""

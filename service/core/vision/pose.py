@@ -2,7 +2,9 @@
 
 A plane seen from afar has two poses that explain it almost equally, one tilted towards and one away from the
 camera. Both closed-form solutions (IPPE, Collins and Bartoli 2014) are refined on the real projection before
-they are compared. Not here: intrinsics that are not known yet (`calibration`).
+they are compared. Where neither explains the view, because the focal length is not what it is said to be,
+their errors are mostly its own and may favour the wrong tilt: then a free focal length decides between them.
+Not here: intrinsics that are not known yet (`calibration`).
 """
 
 from dataclasses import dataclass
@@ -12,13 +14,17 @@ import numpy as np
 
 from service.core.errors import PoseUndetermined
 from service.core.vision.camera import LENSES, Intrinsics, project_with_jacobians, unproject
-from service.core.vision.transforms import Array, Pose, angle_between, rotation_matrix, rotation_vector
+from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 from service.core.vision.virtual_view import turn_towards
 
 CORNERS_NEEDED = 4
 ITERATIONS = 30
 SAME_POSE_RAD = 1e-2
+FIRST_STEPS = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 6, 1e-5)
 CLEARLY_WORSE = 4.0  # times the squared error of the best solution
+MISFIT_PX = 1.0  # rms from which the intrinsics are wrong; corners of live frames are off by 0.3 px at most
+LIKE_RMS = 4.0  # times the least rms, up to which wrong intrinsics may have changed which one is the least
+FOCAL_SD = 0.2  # of the logarithm of a free focal length, against corners off by MISFIT_PX
 
 
 @dataclass(frozen=True)
@@ -35,7 +41,7 @@ class PoseEstimate:
     @property
     def ambiguity(self) -> float:
         """How nearly the other solution explains the view: 0 (certain) to 1 (either tilt is possible)."""
-        return self.rms_px / self.alternative_rms_px if self.alternative_rms_px > 0 else 1.0
+        return min(1.0, self.rms_px / self.alternative_rms_px) if self.alternative_rms_px > 0 else 1.0
 
 
 def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Array) -> PoseEstimate:
@@ -55,13 +61,16 @@ def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Ar
         )
     rotations, translations = _closed_form(board, rays[seen])
     rotations, translations, rms = _refine(intrinsics, rotations, translations, board, pixels)
-    order = np.argsort(rms)
-    if not np.isfinite(rms[order[0]]):
+    if not np.isfinite(rms.min()):
         raise PoseUndetermined(
             "No pose before the camera explains the corners; check the target and the intrinsics."
         )
-    best, other = order[0], order[-1]
-    apart = float(angle_between(rotations[best], rotations[other]))
+    best = int(np.argmin(rms))
+    if rms[best] > MISFIT_PX and rms.max() < LIKE_RMS * rms[best]:
+        best = _choose_with_free_focal(intrinsics, rotations, translations, board, pixels)
+    other = len(rms) - 1 - best
+    # The norm of a difference of rotations is √8 times the sine of half the angle between them.
+    apart = float(np.linalg.norm(rotations[best] - rotations[other])) / np.sqrt(2.0)
     alternative = float(rms[other]) if apart > SAME_POSE_RAD else float("inf")
     return PoseEstimate(
         Pose(rotation_vector(rotations[best]), translations[best]), float(rms[best]), alternative
@@ -80,59 +89,101 @@ def _closed_form(board: Array, rays: Array) -> tuple[Array, Array]:
     if len(rvecs) == 0:
         raise PoseUndetermined("The corners do not span a plane; show the target less edge-on.")
     for rvec, tvec in zip(rvecs, tvecs, strict=True):
-        cv2.solvePnPRefineLM(board, ideal[0], np.eye(3), np.zeros(4), rvec, tvec)
+        cv2.solvePnPRefineLM(board, ideal[0], np.eye(3), np.zeros(4), rvec, tvec, FIRST_STEPS)
     turns, shifts = np.array(rvecs, dtype=np.float64), np.array(tvecs, dtype=np.float64)
     return towards[0].T @ rotation_matrix(turns[..., 0]), shifts[..., 0] @ towards[0]
 
 
-def _refine(
+def _choose_with_free_focal(
     intrinsics: Intrinsics, rotations: Array, translations: Array, board: Array, pixels: Array
+) -> int:
+    """Return which solution (s) is nearest to the best pose of a camera with a free focal length."""
+    freed, _, rms = _refine(intrinsics, rotations, translations, board, pixels, free_focal=True)
+    return int(np.argmin(np.linalg.norm(rotations - freed[np.argmin(rms)], axis=(1, 2))))
+
+
+def _refine(
+    intrinsics: Intrinsics,
+    rotations: Array,
+    translations: Array,
+    board: Array,
+    pixels: Array,
+    *,
+    free_focal: bool = False,
 ) -> tuple[Array, Array, Array]:
     """Return poses of least reprojection error near the given ones (s), with their rms (s,) px.
 
-    Levenberg–Marquardt on all solutions at once; the rms is inf where no pose is feasible.
+    Levenberg–Marquardt on all solutions at once; the rms is inf where no pose is feasible. free_focal: each
+    with a focal length of its own, which is held near the given one by FOCAL_SD; it counts in the rms.
     """
     damping: Array = np.full(len(rotations), 1e-3)
     settled = np.zeros(len(rotations), dtype=bool)
-    cost, gradient, information = _normal_equations(intrinsics, rotations, translations, board, pixels)
+    growth: Array = np.zeros((len(rotations), int(free_focal)))
+    seen = _View(intrinsics, board, pixels)
+    cost, gradient, information = seen.normal_equations(rotations, translations, growth)
     for _ in range(ITERATIONS):
         step = _damped_step(information, gradient, damping)
-        moved_r, moved_t = rotation_matrix(step[:, :3]) @ rotations, translations + step[:, 3:]
-        moved = _normal_equations(intrinsics, moved_r, moved_t, board, pixels)
+        # One that is clearly worse is only compared with, and may creep for long.
+        slack = np.where(cost > CLEARLY_WORSE * cost.min(), 1e-4, 1e-9)
+        # Remembered, as the damping of a solution that has settled grows while the other still moves.
+        settled |= (np.sum(step * gradient, axis=1) <= slack * cost) & (damping < 1.0)
+        if settled.all():
+            break
+        moved_r, moved_t = rotation_matrix(step[:, :3]) @ rotations, translations + step[:, 3:6]
+        moved_f = growth + step[:, 6:]
+        moved = seen.normal_equations(moved_r, moved_t, moved_f)
         better = moved[0] < cost
         rotations = np.where(better[:, None, None], moved_r, rotations)
         translations = np.where(better[:, None], moved_t, translations)
-        # Remembered, as the damping of a solution that has settled grows while the other still moves. One
-        # that is clearly worse is only compared with, and may creep for long.
-        slack = np.where(cost > CLEARLY_WORSE * cost.min(), 1e-4, 1e-12)
-        settled |= (moved[0] >= cost * (1.0 - slack)) & (damping < 1.0)
+        growth = np.where(better[:, None], moved_f, growth)
+        settled |= (moved[0] >= cost * (1.0 - 1e-12)) & (damping < 1.0)
         cost = np.where(better, moved[0], cost)
         gradient = np.where(better[:, None], moved[1], gradient)
         information = np.where(better[:, None, None], moved[2], information)
         damping = np.where(better, damping * 0.1, damping * 10.0)
-        if settled.all():
-            break
     return rotations, translations, np.sqrt(cost / len(board))
 
 
 def _damped_step(information: Array, gradient: Array, damping: Array) -> Array:
-    """Return Marquardt's steps (s, 6)."""
+    """Return Marquardt's steps (s, k)."""
     diagonal = np.diagonal(information, axis1=-2, axis2=-1)
-    damped = information + (damping[:, None] * diagonal)[..., None] * np.eye(6)
+    damped = information + (damping[:, None] * diagonal)[..., None] * np.eye(gradient.shape[-1])
     return np.asarray(np.linalg.solve(damped, gradient[..., None])[..., 0], dtype=np.float64)
 
 
-def _normal_equations(
-    intrinsics: Intrinsics, rotations: Array, translations: Array, board: Array, pixels: Array
-) -> tuple[Array, Array, Array]:
-    """Return squared errors (s,), gradients (s, 6), information (s, 6, 6); inf where one is not shown."""
-    projected, _, by_pose = project_with_jacobians(
-        intrinsics.lens, intrinsics.vector, rotations, translations, board
-    )
-    J = by_pose.reshape(len(rotations), -1, 6)
-    error = (pixels - projected).reshape(len(rotations), -1)
-    points = board @ np.swapaxes(rotations, -1, -2) + translations[:, None]
-    shown = LENSES[intrinsics.lens].radius(points).max(axis=1) < np.inf
-    cost = np.where(shown, np.sum(error * error, axis=1), np.inf)
-    Jt = np.swapaxes(J, -1, -2)
-    return cost, (Jt @ error[..., None])[..., 0], Jt @ J
+@dataclass(frozen=True)
+class _View:
+    """Corners board (n, 3) m seen at pixels (n, 2) by a camera."""
+
+    intrinsics: Intrinsics
+    board: Array
+    pixels: Array
+
+    def normal_equations(
+        self, rotations: Array, translations: Array, growth: Array
+    ) -> tuple[Array, Array, Array]:
+        """Return squared errors (s,), gradients (s, 6 + g), information (s, 6 + g, 6 + g).
+
+        growth: (s, g), the logarithm of a free focal length over the given one, g = 1, or none, g = 0. Errors
+        are inf where a solution is not shown.
+        """
+        lens, vector = self.intrinsics.lens, np.tile(self.intrinsics.vector, (len(growth), 1))
+        vector[:, :2] *= np.exp(growth.sum(axis=1, keepdims=True))
+        projected, _, by_pose = project_with_jacobians(lens, vector, rotations, translations, self.board)
+        points = self.board @ np.swapaxes(rotations, -1, -2) + translations[:, None]
+        shown = LENSES[lens].radius(points).max(axis=1) < np.inf
+        J = by_pose.reshape(len(rotations), -1, 6)
+        error = (self.pixels - projected).reshape(len(rotations), -1)
+        if growth.size:
+            J, error = self._with_growth(J, error, projected, growth)
+        cost = np.where(shown, np.sum(error * error, axis=1), np.inf)
+        Jt = np.swapaxes(J, -1, -2)
+        return cost, (Jt @ error[..., None])[..., 0], Jt @ J
+
+    def _with_growth(self, J: Array, error: Array, projected: Array, growth: Array) -> tuple[Array, Array]:
+        """Return J (s, 2n, 6) and errors (s, 2n) with the growth's column and what holds it as a row more."""
+        by_growth = (projected - self.intrinsics.vector[2:4]).reshape(len(growth), -1, 1)
+        hold = np.sqrt(len(self.board)) * MISFIT_PX / FOCAL_SD
+        row = np.tile(hold * np.eye(7)[6], (len(growth), 1, 1))
+        whole = np.concatenate([np.concatenate([J, by_growth], axis=-1), row], axis=1)
+        return whole, np.concatenate([error, -hold * growth], axis=1)

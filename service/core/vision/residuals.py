@@ -11,6 +11,7 @@ import numpy as np
 from service.core.vision.transforms import Array
 
 OUTLIER_SIGMA = 4.0
+OUTLIER_FLOOR_PX = 0.05  # nearer than that nothing in front of a board can be told from a soft edge
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,6 @@ def worst_to_median_view(residuals: Sequence[Array]) -> float:
 
 
 def outlier_share(residuals: Sequence[Array], sigma_px: float) -> float:
-    """Return the share of corners with a coordinate beyond four sigma_px."""
+    """Return the share of corners with a coordinate beyond four sigma_px and OUTLIER_FLOOR_PX."""
     largest = np.concatenate([np.abs(view).max(axis=1) for view in residuals])
-    return float(np.mean(largest > OUTLIER_SIGMA * sigma_px))
+    return float(np.mean(largest > max(OUTLIER_SIGMA * sigma_px, OUTLIER_FLOOR_PX)))

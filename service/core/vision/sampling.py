@@ -14,6 +14,11 @@ def smooth(image: NDArray[np.uint8] | FloatImage, sigma_px: float) -> FloatImage
     return np.asarray(cv2.GaussianBlur(image.astype(np.float32), (0, 0), sigma_px), dtype=np.float32)
 
 
+def middle_of(image: FloatImage | NDArray[np.uint8]) -> Array:
+    """Return the middle (2,) px of an image (h, w)."""
+    return (np.array(image.shape[::-1]) - 1.0) / 2.0
+
+
 def sample_bilinear(image: FloatImage | NDArray[np.uint8], x: Array, y: Array) -> Array:
     """Return grey values (...) of an image (h, w) at x, y (...) px; those outside are moved to the border.
 

@@ -54,6 +54,11 @@ class Target(Protocol):
         ...
 
     @property
+    def reach_m(self) -> float:
+        """How far around a feature its print must be seen, m: the radius of a dot, nothing at a corner."""
+        ...
+
+    @property
     def object_points(self) -> Array:
         """Features (rows * columns, 3), m: row by row, z = 0."""
         ...

@@ -70,6 +70,11 @@ class AprilGrid:
         return self.tag_m / CELLS
 
     @property
+    def reach_m(self) -> float:
+        """Nothing: a corner is seen as soon as it is in the picture."""
+        return 0.0
+
+    @property
     def object_points(self) -> Array:
         """Corners of the tags (rows * columns, 3), m: row by row from the top left, z = 0."""
         x, y = self._places(self.columns), self._places(self.rows)

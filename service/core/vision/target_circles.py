@@ -53,6 +53,11 @@ class Circles:
         return self.diameter_m
 
     @property
+    def reach_m(self) -> float:
+        """A dot's radius, m."""
+        return 0.5 * self.diameter_m
+
+    @property
     def object_points(self) -> Array:
         """Centres of the dots (rows * columns, 3), m: row by row, z = 0."""
         row, column = np.divmod(np.arange(self.rows * self.columns), self.columns)

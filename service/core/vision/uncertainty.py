@@ -83,7 +83,7 @@ def compensated_jacobian(intrinsics: Intrinsics, grid: Array, held: Region | Non
     reached, A, B = _jacobians(intrinsics, grid)
     fitted = (A, B) if held is None else _jacobians(intrinsics, held.grid(*GRID))[1:]
     p = A.shape[-1]
-    turn, *_ = np.linalg.lstsq(fitted[1].reshape(-1, 3), fitted[0].reshape(-1, p), rcond=None)
+    turn = _best_turns(fitted[1].reshape(-1, 3), fitted[0].reshape(-1, p))
     out = np.full((len(grid), 2, p), np.nan)
     out[reached] = A - B @ turn
     return out
@@ -128,9 +128,17 @@ def best_turn(b: Intrinsics, rays: Array, pixels: Array) -> tuple[Array, Array]:
         projected, _, by_pose = project_with_jacobians(b.lens, b.vector, R[None], np.zeros((1, 3)), rays)
         difference = pixels - projected[0]
         B = by_pose[0, ..., :3]
-        turn, *_ = np.linalg.lstsq(B.reshape(-1, 3), difference.reshape(-1), rcond=None)
+        turn = _best_turns(B.reshape(-1, 3), difference.reshape(-1))
         R = rotation_matrix(turn) @ R
         if np.abs(turn).max() < SMALL_TURN_RAD:
             # Of so small a turn the square is rounding: what is left follows without another look.
             return R, difference - B @ turn
     return R, difference
+
+
+def _best_turns(B: Array, moved: Array) -> Array:
+    """Return the turns (3, ...), rad, by which B (n, 3) explains most of how pixels moved (n, ...), px.
+
+    By the normal equations, which are well conditioned: all turns move pixels by about as much.
+    """
+    return np.asarray(np.linalg.pinv(B.T @ B, hermitian=True) @ (B.T @ moved))

@@ -135,6 +135,17 @@ def test_two_that_are_safe_only_together_are_named_together() -> None:
     assert choose_hints(none_together, TOLERANCES, ()) == (Hint.ROTATE_CLOCKWISE,)
 
 
+def test_an_error_within_its_tolerance_is_mended_where_it_takes_the_room_of_a_wanted_one() -> None:
+    up = difference(down_px=-60.0, turn_rad=0.9 * TOLERANCES.turn_rad, tilt_rad=-0.2 * TOLERANCES.tilt_rad)
+    assert choose_hints(up, TOLERANCES, ()) == (Hint.MOVE_UP,)
+    at_the_border = replace(up, leads_out=(False, True, False, False, False, False))
+    assert choose_hints(at_the_border, TOLERANCES, ()) == (Hint.TURN_LEFT_BACK, Hint.MOVE_UP)
+    not_together = replace(at_the_border, together_lead_out=frozenset({(1, 4)}))
+    assert choose_hints(not_together, TOLERANCES, ()) == (Hint.TURN_LEFT_BACK,)
+    nothing_helps = replace(not_together, leads_out=(False, True, False, False, True, False))
+    assert choose_hints(nothing_helps, TOLERANCES, ()) == (Hint.MOVE_UP,)
+
+
 def test_a_lone_movement_that_leads_out_has_half_its_way_before_it() -> None:
     out = replace(difference(), ways=(0.25, 0.0, 0.0, 0.0, 0.0, FAR_RAD), leads_out=(True,) * 6)
     assert show_hints((Hint.MOVE_RIGHT,), out) == (ShownHint(Hint.MOVE_RIGHT, 0.6),)

@@ -112,8 +112,13 @@ def test_one_bad_frame_starts_the_dwell_anew() -> None:
     assert play(start_session(POSES), frames)[1] == []
 
 
+def test_two_frames_in_a_second_are_enough_for_a_capture() -> None:
+    effects = play(start_session(POSES), [frame(POSES[0], 0.5 * i) for i in range(3)])[1]
+    assert [type(effect) for effect in effects] == [CaptureFrame]
+
+
 def test_frames_that_come_too_rarely_prove_no_stillness() -> None:
-    assert play(start_session(POSES), [frame(POSES[0], 0.5 * i) for i in range(10)])[1] == []
+    assert play(start_session(POSES), [frame(POSES[0], 1.5 * i) for i in range(10)])[1] == []
 
 
 def test_another_pose_is_not_captured_and_the_way_is_told() -> None:

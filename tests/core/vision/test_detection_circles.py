@@ -7,7 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from service.core.errors import TargetNotVisible, WrongTarget
-from service.core.vision.circle_centres import centroid_bias, fit_smooth_map
+from service.core.vision.board_map import fit_board_map
+from service.core.vision.circle_centres import centroid_bias
 from service.core.vision.detection import Detection, detect_target
 from service.core.vision.target_circles import Circles, parse_circles
 from service.core.vision.transforms import Array, Pose
@@ -59,7 +60,10 @@ def test_tilted_grids_are_found_and_judged_bright_and_sharp(degrees: tuple[int, 
 def test_the_bias_of_centroids_is_known_and_taken_off() -> None:
     pose = centred_pose(LARGE, (30.0, 30.0, 60.0), (0.0, 0.0, 0.36))
     found = detect_target(picture(LARGE, pose), LARGE)
-    bias = centroid_bias(fit_smooth_map(LARGE, found.image_points), LARGE)
+    bias = centroid_bias(
+        fit_board_map(LARGE.object_points[:, :2], found.image_points, (np.array(found.image_size) - 1) / 2),
+        LARGE,
+    )
 
     assert rms(bias) > 0.2
     assert rms(errors(found, LARGE, pose)) < 0.2 * rms(bias)

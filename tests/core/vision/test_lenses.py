@@ -110,3 +110,22 @@ def test_newton_that_leaps_about_is_helped() -> None:
         wanted = direction("rational8", k, share, 0.0)
         found = lens.unproject(lens.project(wanted, k), k)
         np.testing.assert_allclose(found / np.linalg.norm(found), wanted, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["pinhole5", "rational8"])
+@pytest.mark.parametrize("tangential", [1e-4, 1e-3, 1e-2])
+def test_what_is_just_before_the_fold_is_not_taken_for_beyond_it(name: str, tangential: float) -> None:
+    lens, rng = LENSES[name], np.random.default_rng(3)
+    k = np.array([-0.3, 0.1, 0.0, 0.0, -0.02, 0.1, 0.0, 0.0])[: len(lens.coefficients)]
+    k[2:4] = tangential * rng.standard_normal(2)
+    reach = lens.reach(k)
+    around = rng.uniform(0.0, 2.0 * np.pi, 500)
+    ideal = reach * rng.uniform(0.9, 0.999, (500, 1)) * np.stack([np.cos(around), np.sin(around)], axis=-1)
+    wanted = np.concatenate([ideal, np.ones((500, 1))], axis=-1)
+    image = lens.project(wanted, k)
+    found = lens.unproject(image, k)
+    # With a tangential part the lens folds a little before its radial part alone does.
+    assert np.isfinite(found).all(axis=-1).mean() > 0.9
+    again = np.isfinite(found[:, 0])
+    np.testing.assert_allclose(lens.project(found[again], k), image[again], atol=1e-8)
+    assert np.isnan(lens.unproject(1.2 * image, k)).all()

@@ -44,6 +44,18 @@ def test_a_small_far_board_is_told_to_be_ambiguous() -> None:
     assert estimate_pose(LENS1, BOARD.object_points, pixels).ambiguity > 0.9
 
 
+@pytest.mark.parametrize("number", [174, 213])
+def test_a_wrong_focal_length_does_not_favour_the_wrong_tilt(number: int) -> None:
+    vector = WIDE.vector * np.r_[1.25, 1.25, np.ones(7)]
+    nominal = Intrinsics.from_vector(WIDE.lens, vector, WIDE.image_size)
+    R, t = (part[number] for part in board_poses(WIDE, 300, seed=5))
+    estimate = estimate_pose(nominal, BOARD.object_points, project(WIDE, R, t, BOARD.object_points))
+    assert np.degrees(float(angle_between(R, estimate.pose.rotation))) < 25.0
+    # The other tilt explains these corners better, through a lens that is not the one they were seen with.
+    assert estimate.alternative_rms_px < estimate.rms_px
+    assert estimate.ambiguity == 1.0
+
+
 def test_the_refined_pose_is_no_worse_than_opencvs() -> None:
     rng = np.random.default_rng(4)
     for R, t in zip(*board_poses(WIDE, 8, seed=5), strict=True):

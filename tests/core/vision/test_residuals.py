@@ -36,6 +36,7 @@ def test_an_outlier_is_a_corner_with_a_coordinate_beyond_four_sigma() -> None:
     errors[0] = 0.0, -4.1
     errors[1] = 3.9, 3.9
     assert outlier_share([errors], sigma_px=1.0) == pytest.approx(0.1)
+    assert outlier_share([0.007 * errors], sigma_px=0.007) == 0.0  # 0.029 px
 
 
 def test_the_summary_names_the_worst_view() -> None:
