@@ -10,7 +10,7 @@ from sqlalchemy import Connection
 from service.settings import Settings
 from service.storage.columns import UtcDateTime
 from service.storage.database import Database
-from service.storage.learnt import ALL_TABLES
+from service.storage.tables import ALL_TABLES
 
 # Two services that start together take turns; the number is the ASCII of "dmscal".
 POSTGRESQL_TURN = "SELECT pg_advisory_xact_lock(110421250105708)"

@@ -47,6 +47,7 @@ from service.storage.migration import revision_of, upgrade
 from service.storage.words import Role
 from service.usecases.access import create_key, list_keys, revoke_key
 from service.usecases.folder_calibration import calibrate_folder
+from service.usecases.folder_place import PlacePictures, read_place_pictures
 from service.usecases.folder_report import report_document, report_text
 from service.usecases.paging import PageRequest
 from service.usecases.plan_report import plan_text
@@ -122,6 +123,17 @@ def _add_calibrate(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--sku", type=Path, metavar="FILE", help="SKU document (JSON): nominal camera and limits"
     )
+    parser.add_argument(
+        "--fixture", type=Path, metavar="FILE", help="a station's fixture (JSON), for T_vehicle_cam"
+    )
+    parser.add_argument(
+        "--fixture-image",
+        type=Path,
+        metavar="IMAGE",
+        nargs="+",
+        action="extend",
+        help="pictures of the fixture's target, taken with the camera where it is mounted",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.set_defaults(run=_calibrate)
 
@@ -138,9 +150,23 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     fixed = revision.fixed if revision else ()
     if arguments.fix is not None:
         fixed = tuple(name.strip() for name in arguments.fix.split(",") if name.strip())
-    calibration = calibrate_folder(arguments.folder, target, lens, fixed=fixed, revision=revision)
+    place = _place_pictures(arguments)
+    calibration = calibrate_folder(
+        arguments.folder, target, lens, fixed=fixed, revision=revision, place=place
+    )
     print_text(to_json(report_document(calibration)) if arguments.json else report_text(calibration))
     return FAILED if calibration.judged.verdict is Verdict.FAIL else DONE
+
+
+def _place_pictures(arguments: argparse.Namespace) -> PlacePictures | None:
+    if arguments.fixture is None and arguments.fixture_image is None:
+        return None
+    if arguments.fixture is None or arguments.fixture_image is None:
+        raise BadRequest(
+            "Where the camera is in the vehicle takes both: --fixture FILE says where the target stands, "
+            "--fixture-image IMAGE shows it."
+        )
+    return read_place_pictures(arguments.fixture, arguments.fixture_image)
 
 
 def _add_plan(parser: argparse.ArgumentParser) -> None:

@@ -14,6 +14,7 @@ from service.api.rest import (
     captures,
     certificates,
     exports,
+    extrinsics,
     health,
     jobs,
     keys,
@@ -76,6 +77,7 @@ def create_api(lifespan: Lifespan | None = None, max_image_bytes: int = MAX_IMAG
     app.include_router(api)
     images = APIRouter(prefix="/api/v1", responses=PROBLEM_ANSWERS, max_body_size=max_image_bytes)
     images.include_router(captures.router)
+    images.include_router(extrinsics.router)
     app.include_router(images)
     app.include_router(health.router, responses=PROBLEM_ANSWERS)
     app.include_router(certificates.public_keys, responses=PROBLEM_ANSWERS)

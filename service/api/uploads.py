@@ -1,4 +1,4 @@
-"""One uploaded image, as a multipart field `image` or as the raw body.
+"""Uploaded images, as multipart fields `image`, or one as the raw body.
 
 Never more than the route's body limit.
 """
@@ -11,6 +11,7 @@ from starlette.datastructures import UploadFile
 
 from service.core.errors import BadRequest, MediaTypeUnsupported
 
+MOST_IMAGES = 8
 UPLOAD_BODY: dict[str, Any] = {
     "requestBody": {
         "required": True,
@@ -29,6 +30,30 @@ UPLOAD_BODY: dict[str, Any] = {
         },
     }
 }
+UPLOADS_BODY: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "description": f"1 to {MOST_IMAGES} images: multipart fields named `image`, or the bytes of one with "
+        "an image/* type.",
+        "content": {
+            "multipart/form-data": {
+                "schema": {
+                    "type": "object",
+                    "required": ["image"],
+                    "properties": {
+                        "image": {
+                            "type": "array",
+                            "maxItems": MOST_IMAGES,
+                            "items": {"type": "string", "format": "binary"},
+                        }
+                    },
+                }
+            },
+            "image/png": {"schema": {"type": "string", "format": "binary"}},
+            "image/jpeg": {"schema": {"type": "string", "format": "binary"}},
+        },
+    }
+}
 
 
 @dataclass(frozen=True)
@@ -40,32 +65,44 @@ class UploadedImage:
     file_name: str | None
 
 
-async def uploaded_image(request: Request) -> UploadedImage:
-    """Read the image of a request; raises BadRequest or MediaTypeUnsupported saying how to send it."""
+async def uploaded_images(request: Request) -> list[UploadedImage]:
+    """Read the images of a request; raises BadRequest or MediaTypeUnsupported saying how to send them."""
     media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type == "multipart/form-data":
-        upload = await _from_form(request)
+        uploads = await _from_form(request)
     elif media_type.startswith("image/") or media_type == "application/octet-stream":
-        upload = UploadedImage(await request.body(), media_type, None)
+        uploads = [UploadedImage(await request.body(), media_type, None)]
     else:
         raise MediaTypeUnsupported(
             "Send the image as multipart/form-data with a field named 'image', or as the body with an "
             "image/* type.",
             media_type=media_type,
         )
-    if not upload.content:
+    if not all(upload.content for upload in uploads):
         raise BadRequest("The image is empty: 0 bytes arrived. Send the file's content.")
-    return upload
+    return uploads
 
 
-async def _from_form(request: Request) -> UploadedImage:
-    async with request.form(max_files=1, max_fields=8) as form:
-        image = form.get("image")
-        if not isinstance(image, UploadFile):
+async def uploaded_image(request: Request) -> UploadedImage:
+    """Read the only image of a request; raises what `uploaded_images` raises."""
+    uploads = await uploaded_images(request)
+    if len(uploads) > 1:
+        raise BadRequest(f"{len(uploads)} images arrived in one request. Send each in a request of its own.")
+    return uploads[0]
+
+
+async def _from_form(request: Request) -> list[UploadedImage]:
+    async with request.form(max_files=MOST_IMAGES, max_fields=8) as form:
+        images = [image for image in form.getlist("image") if isinstance(image, UploadFile)]
+        if not images:
             raise BadRequest("The form has no file named 'image'. Name the file's field 'image'.")
-        return UploadedImage(
-            await image.read(), image.content_type or "application/octet-stream", image.filename
-        )
+        return [
+            UploadedImage(
+                await image.read(), image.content_type or "application/octet-stream", image.filename
+            )
+            for image in images
+        ]
 
 
 Upload = Annotated[UploadedImage, Depends(uploaded_image)]
+Uploads = Annotated[list[UploadedImage], Depends(uploaded_images)]

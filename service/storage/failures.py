@@ -20,7 +20,7 @@ from service.core.errors import (
     RunAlreadyFinished,
     ServiceError,
 )
-from service.storage.learnt import ALL_TABLES
+from service.storage.tables import ALL_TABLES
 
 CONSTRAINT_TO_ERROR: Mapping[str, tuple[type[Conflict], str]] = {
     "uq_target_serial": (

@@ -83,6 +83,3 @@ class BoardShapeRow(Row):
     certified_by: Mapped[str | None] = mapped_column(default=None)
     retired_at: Mapped[datetime | None] = mapped_column(default=None)
     retired_by: Mapped[str | None] = mapped_column(default=None)
-
-
-ALL_TABLES = Row.metadata  # complete once this module is loaded

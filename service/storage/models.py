@@ -202,7 +202,25 @@ class RunPoseRow(Row):
     created_at: Mapped[datetime]
 
 
-class CaptureRow(Row):
+class SeenPicture(MappedAsDataclass, kw_only=True, eq=False, repr=False):
+    """What a row holds of a picture and of what was seen in it; number: within what it belongs to."""
+
+    number: Mapped[int]
+    file_name: Mapped[str]
+    sha256: Mapped[str]
+    media_type: Mapped[str]
+    bytes: Mapped[int]
+    image_size: Mapped[JsonArray]
+    corners: Mapped[JsonArray]
+    corner_ids: Mapped[JsonArray]
+    sharpness: Mapped[JsonObject]
+    parity_separation: Mapped[float]
+    contrast: Mapped[float]
+    # Null in captures that are older than its measurement.
+    saturated_share: Mapped[float | None] = mapped_column(default=None)
+
+
+class CaptureRow(SeenPicture, Row):
     """One accepted image of a run and what was seen in it; the image is in the blob store under `sha256`.
 
     fixture: where the target stood, of a picture that is to say where the camera is in the vehicle.
@@ -220,7 +238,6 @@ class CaptureRow(Row):
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     run_id: Mapped[UUID] = mapped_column(refers_to("run.id"))
-    number: Mapped[int]
     role: Mapped[CaptureRole] = mapped_column(
         word(CaptureRole, "role"),
         default=CaptureRole.INTRINSICS,
@@ -228,18 +245,6 @@ class CaptureRow(Row):
     )
     fixture: Mapped[JsonObject | None] = mapped_column(default=None)
     pose_index: Mapped[int | None] = mapped_column(default=None)
-    file_name: Mapped[str]
-    sha256: Mapped[str]
-    media_type: Mapped[str]
-    bytes: Mapped[int]
-    image_size: Mapped[JsonArray]
-    corners: Mapped[JsonArray]
-    corner_ids: Mapped[JsonArray]
-    sharpness: Mapped[JsonObject]
-    parity_separation: Mapped[float]
-    contrast: Mapped[float]
-    # Null in captures that are older than its measurement.
-    saturated_share: Mapped[float | None] = mapped_column(default=None)
     pose: Mapped[JsonObject | None] = mapped_column(default=None)
     match_error_px: Mapped[float | None] = mapped_column(default=None)
     created_at: Mapped[datetime]

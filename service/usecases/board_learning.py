@@ -32,7 +32,7 @@ from service.storage.models import (
     SkuRevisionRow,
     TargetRow,
 )
-from service.storage.words import JobState
+from service.storage.words import CaptureRole, JobState
 from service.usecases.audit import record
 from service.usecases.board_in_use import certified_shape
 from service.usecases.sku_document import SkuDocument
@@ -175,7 +175,12 @@ def _shape_run(session: Session, run_id: UUID) -> ShapeRun:
     """Return what a run tells: its stored corners, and its camera to start from."""
     revision_id = session.get_one(RunRow, run_id).sku_revision_id
     revision = SkuDocument.model_validate(session.get_one(SkuRevisionRow, revision_id).document).to_revision()
-    query = select(CaptureRow).where(CaptureRow.run_id == run_id).order_by(CaptureRow.number)
+    # Pictures of the station's fixed target show another plate.
+    query = (
+        select(CaptureRow)
+        .where(CaptureRow.run_id == run_id, CaptureRow.role == CaptureRole.INTRINSICS)
+        .order_by(CaptureRow.number)
+    )
     captures = list(session.scalars(query))
     return ShapeRun(
         tuple(np.array(capture.corner_ids, dtype=np.int64) for capture in captures),

@@ -16,6 +16,7 @@ from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, StateForbids
 from service.core.quality.board_drift import KNOWN_SHARE, ShapeCertainty
+from service.core.vision.target import parse_target
 from service.ports import JobQueue
 from service.storage.learnt import BoardShapeRow
 from service.storage.models import JobRow, TargetRow
@@ -53,8 +54,12 @@ class ShapeView:
 
 @dataclass(frozen=True, kw_only=True)
 class ShapeDetailView(ShapeView):
-    """A shape with its corners, x y z by corner, mm, and the runs that it was learnt from."""
+    """A shape with its corners, by corner, mm, and the runs that it was learnt from.
 
+    corners_mm: x y of the pattern. deviations_mm, sd_mm: x y z from there.
+    """
+
+    corners_mm: list[list[float]]
     deviations_mm: list[list[float]]
     sd_mm: list[list[float]]
     run_ids: list[str]
@@ -86,16 +91,29 @@ def find_target(session: Session, named: str) -> TargetRow:
 def read_target(session: Session, named: str) -> TargetView:
     """Return a board with its shape; raises NotFound."""
     row = find_target(session, named)
-    certified = certified_shape(session, row.id)
-    return TargetView(
-        id=row.id,
-        serial=row.serial,
-        spec=row.spec,
-        drift_limit_mm=row.drift_limit_mm,
-        created_at=row.created_at,
-        certified_shape=None if certified is None else ShapeView(**_common(certified)),
-        drift=present_drift(session, [row.id]).get(row.id),
+    return view_targets(session, [row.id])[row.id]
+
+
+def view_targets(session: Session, target_ids: Iterable[UUID]) -> dict[UUID, TargetView]:
+    """Return boards by id, each with its shape, by a fixed number of queries."""
+    ids = list(target_ids)
+    drifts = present_drift(session, ids)
+    query = select(BoardShapeRow).where(
+        BoardShapeRow.target_id.in_(ids), BoardShapeRow.state == ShapeState.CERTIFIED
     )
+    certified = {row.target_id: ShapeView(**_common(row)) for row in session.scalars(query)}
+    return {
+        row.id: TargetView(
+            id=row.id,
+            serial=row.serial,
+            spec=row.spec,
+            drift_limit_mm=row.drift_limit_mm,
+            created_at=row.created_at,
+            certified_shape=certified.get(row.id),
+            drift=drifts.get(row.id),
+        )
+        for row in session.scalars(select(TargetRow).where(TargetRow.id.in_(ids)))
+    }
 
 
 def request_shape(
@@ -120,7 +138,7 @@ def list_shapes(session: Session, named: str, page: PageRequest) -> Part[ShapeVi
 
 def read_shape(session: Session, shape_id: UUID) -> ShapeDetailView:
     """Return a shape with its corners; raises NotFound."""
-    return _detail(_get(session, shape_id))
+    return _detail(session, _get(session, shape_id))
 
 
 def certify_shape(session: Session, shape_id: UUID, who: str, now: datetime) -> ShapeDetailView:
@@ -132,7 +150,7 @@ def certify_shape(session: Session, shape_id: UUID, who: str, now: datetime) -> 
     # Two certificates at the same moment must not both stand.
     target = session.get_one(TargetRow, row.target_id, with_for_update=True)
     if row.state is ShapeState.CERTIFIED:
-        return _detail(row)
+        return _detail(session, row)
     if row.state is ShapeState.RETIRED:
         raise StateForbids("The shape is retired. Learn a new one, and certify that.", state=row.state.value)
     _check_known(row, target)
@@ -142,7 +160,7 @@ def certify_shape(session: Session, shape_id: UUID, who: str, now: datetime) -> 
     row.state, row.certified_at, row.certified_by = ShapeState.CERTIFIED, now, who
     record(session, now, who, "board-shape.certify", f"target:{target.id}", version=row.version)
     session.flush()
-    return _detail(row)
+    return _detail(session, row)
 
 
 def retire_shape(session: Session, shape_id: UUID, who: str, now: datetime) -> ShapeDetailView:
@@ -152,7 +170,7 @@ def retire_shape(session: Session, shape_id: UUID, who: str, now: datetime) -> S
         _retire(row, who, now)
         record(session, now, who, "board-shape.retire", f"target:{row.target_id}", version=row.version)
         session.flush()
-    return _detail(row)
+    return _detail(session, row)
 
 
 def present_drift(session: Session, target_ids: Iterable[UUID]) -> dict[UUID, JsonObject]:
@@ -204,9 +222,11 @@ def _get(session: Session, shape_id: UUID) -> BoardShapeRow:
     return row
 
 
-def _detail(row: BoardShapeRow) -> ShapeDetailView:
+def _detail(session: Session, row: BoardShapeRow) -> ShapeDetailView:
+    pattern = parse_target(session.get_one(TargetRow, row.target_id).spec)
     return ShapeDetailView(
         **_common(row),
+        corners_mm=(1e3 * pattern.object_points[:, :2]).tolist(),
         deviations_mm=(1e3 * np.array(row.deviations)).tolist(),
         sd_mm=(1e3 * np.array(row.sd)).tolist(),
         run_ids=list(row.run_ids),

@@ -17,7 +17,7 @@ from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.run import Purpose
 from service.core.vision.detection import Detection
 from service.core.vision.target import parse_target
-from service.storage.models import CaptureRow, RunRow, SkuRevisionRow
+from service.storage.models import CaptureRow, RunRow, SeenPicture, SkuRevisionRow
 from service.storage.words import CaptureRole
 from service.usecases.board_in_use import BoardInUse, load_board
 from service.usecases.fixture_document import FixtureDocument
@@ -78,7 +78,7 @@ def load_input(session: Session, run: RunRow) -> CalibrationInput:
     return CalibrationInput(
         run_id=run.id,
         capture_ids=tuple(capture.id for capture in (*captures, *of_fixture)),
-        detections=tuple(map(_detection, captures)),
+        detections=tuple(map(detection_of, captures)),
         revision=revision,
         expectation=expectation,
         identity=identity.reference,
@@ -92,7 +92,7 @@ def _fixed_target(captures: Sequence[CaptureRow]) -> FixedTargetViews:
     """Return the pictures of the fixed target, with its place as it was when they were taken."""
     document = FixtureDocument.model_validate(captures[0].fixture)
     return FixedTargetViews(
-        parse_target(document.target), document.to_fixed_target(), tuple(map(_detection, captures))
+        parse_target(document.target), document.to_fixed_target(), tuple(map(detection_of, captures))
     )
 
 
@@ -127,16 +127,17 @@ def _used_for(session: Session, run: RunRow, hashes: list[str]) -> dict[str, str
     return {row.sha256: row.serial for row in session.execute(query)}
 
 
-def _detection(capture: CaptureRow) -> NamedDetection:
-    width, height = capture.image_size
+def detection_of(picture: SeenPicture) -> NamedDetection:
+    """Return what was detected in a picture, as it was stored."""
+    width, height = picture.image_size
     detection = Detection(
-        image_points=np.array(capture.corners, dtype=np.float64).reshape(-1, 2),
-        corner_ids=np.array(capture.corner_ids, dtype=np.int64),
+        image_points=np.array(picture.corners, dtype=np.float64).reshape(-1, 2),
+        corner_ids=np.array(picture.corner_ids, dtype=np.int64),
         image_size=(width, height),
-        sharpness=sharpness_from_json(capture.sharpness),
-        parity_separation=capture.parity_separation,
-        contrast=capture.contrast,
-        saturated_share=math.nan if capture.saturated_share is None else capture.saturated_share,
+        sharpness=sharpness_from_json(picture.sharpness),
+        parity_separation=picture.parity_separation,
+        contrast=picture.contrast,
+        saturated_share=math.nan if picture.saturated_share is None else picture.saturated_share,
     )
     # Names are unique within a run even where stations send every image under the same file name.
-    return NamedDetection(f"{capture.number:02d} {capture.file_name}", detection, capture.sha256)
+    return NamedDetection(f"{picture.number:02d} {picture.file_name}", detection, picture.sha256)

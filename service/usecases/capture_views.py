@@ -94,9 +94,14 @@ def read_image(session: Session, blobs: BlobStore, capture_id: UUID) -> ShownIma
     row = session.get(CaptureRow, capture_id)
     if row is None:
         raise NotFound("There is no capture of this id.", capture_id=str(capture_id))
-    content = blobs.get(row.sha256)
-    if row.media_type in SHOWN_BY_BROWSERS:
-        return ShownImage(content, row.media_type)
+    return show_image(blobs, row.sha256, row.media_type)
+
+
+def show_image(blobs: BlobStore, sha256: str, media_type: str) -> ShownImage:
+    """Return a stored image so that a browser can show it."""
+    content = blobs.get(sha256)
+    if media_type in SHOWN_BY_BROWSERS:
+        return ShownImage(content, media_type)
     return ShownImage(_to_png(content), "image/png")
 
 

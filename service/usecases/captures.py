@@ -9,6 +9,7 @@ row, so that no row lacks its image.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
+from typing import Any
 from uuid import UUID
 
 from sqlalchemy import func, select
@@ -97,6 +98,25 @@ def add_capture(
         facts = {**facts, "number": row.number, "sha256": sha256, "role": role.value}
         record(session, now, who, "capture.add", f"run:{run_id}", **facts)
         return Accepted(view_capture_detail(session, row), is_new=True)
+
+
+def picture_columns(number: int, picture: Picture, observation: Observation, sha256: str) -> dict[str, Any]:
+    """Return what a row holds of a picture and of what was seen in it; number: within what it belongs to."""
+    detection = observation.detection
+    return {
+        "number": number,
+        "file_name": picture.file_name or f"capture-{number}",
+        "sha256": sha256,
+        "media_type": observation.media_type,
+        "bytes": len(picture.content),
+        "image_size": list(detection.image_size),
+        "corners": detection.image_points.tolist(),
+        "corner_ids": detection.corner_ids.tolist(),
+        "sharpness": sharpness_to_json(detection.sharpness),
+        "parity_separation": float(detection.parity_separation),
+        "contrast": float(detection.contrast),
+        "saturated_share": number_or_null(detection.saturated_share),
+    }
 
 
 def get_capture(session: Session, capture_id: UUID) -> CaptureRow:
@@ -214,22 +234,10 @@ def _insert(
 ) -> CaptureRow:
     _check_pose_is_free(session, run.id, pose_index)
     last = session.scalar(select(func.max(CaptureRow.number)).where(CaptureRow.run_id == run.id)) or 0
-    detection = observation.detection
     row = CaptureRow(
         run_id=run.id,
-        number=last + 1,
         pose_index=pose_index,
-        file_name=picture.file_name or f"capture-{last + 1}",
-        sha256=sha256,
-        media_type=observation.media_type,
-        bytes=len(picture.content),
-        image_size=list(detection.image_size),
-        corners=detection.image_points.tolist(),
-        corner_ids=detection.corner_ids.tolist(),
-        sharpness=sharpness_to_json(detection.sharpness),
-        parity_separation=float(detection.parity_separation),
-        contrast=float(detection.contrast),
-        saturated_share=number_or_null(detection.saturated_share),
+        **picture_columns(last + 1, picture, observation, sha256),
         pose=None if observation.pose is None else pose_to_json(observation.pose),
         match_error_px=observation.match_error_px,
         created_at=now,

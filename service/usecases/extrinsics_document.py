@@ -1,12 +1,12 @@
 """The place of a camera in the vehicle as JSON, and a view of a solve. Not here: the rest of a result."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 from uuid import UUID
 
 import numpy as np
 
-from service.core.quality.verdict import Judged
+from service.core.vision.extrinsics import Extrinsics
 from service.core.vision.transforms import Array
 from service.usecases.observation import number_or_null, pose_to_json
 
@@ -14,15 +14,12 @@ JsonObject = dict[str, Any]
 
 
 def extrinsics_document(
-    judged: Judged, capture_ids: Mapping[str, UUID], fixture: JsonObject | None
-) -> JsonObject | None:
-    """Return where the camera is; None for a run without pictures of a fixed target.
+    found: Extrinsics, names: Sequence[str], capture_ids: Mapping[str, UUID | str], fixture: JsonObject | None
+) -> JsonObject:
+    """Return where the camera is; names: of the pictures, by which `capture_ids` are.
 
     Covariances are of a left increment of the rotation in the vehicle frame, rad, then of the position, m.
     """
-    found = judged.extrinsics
-    if found is None:
-        return None
     sd = np.sqrt(np.diagonal(found.covariance))
     board = pose_to_json(found.T_cam_board)
     return {
@@ -45,7 +42,7 @@ def extrinsics_document(
         "fixture": fixture,
         "views": [
             view_document(name, str(capture_ids[name]), residuals, board)
-            for name, residuals in zip(judged.fixed_views, found.residuals, strict=True)
+            for name, residuals in zip(names, found.residuals, strict=True)
         ],
     }
 

@@ -8,14 +8,16 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
-from service.core.errors import FolderUnusable, ImageUnreadable, ServiceError
+from service.core.errors import FolderUnusable, ServiceError
 from service.core.quality.evidence import Expectation, NamedDetection, Refusal
 from service.core.quality.verdict import Judged, calibrate_and_judge
 from service.core.vision.calibration import check_request
 from service.core.vision.detection import detect_target
 from service.core.vision.residuals import view_rms
 from service.core.vision.target import Target
-from service.usecases.images import LARGEST_BYTES, SUFFIXES, decode_image, image_sha256
+from service.usecases.fixture_document import FixtureDocument
+from service.usecases.folder_place import PlacePictures
+from service.usecases.images import SUFFIXES, decode_image, image_sha256, read_image_file
 from service.usecases.sku_document import Revision
 
 
@@ -36,11 +38,15 @@ class ImageOutcome:
 
 @dataclass(frozen=True)
 class FolderCalibration:
-    """The judged calibration of a folder, and what became of each of its images, in their order."""
+    """The judged calibration of a folder, and what became of each of its images, in their order.
+
+    fixture: of the pictures that say where the camera is in the vehicle, if there are such.
+    """
 
     target: Target
     judged: Judged
     images: tuple[ImageOutcome, ...]
+    fixture: FixtureDocument | None = None
 
 
 def calibrate_folder(
@@ -50,16 +56,19 @@ def calibrate_folder(
     *,
     fixed: Collection[str] = (),
     revision: Revision | None = None,
+    place: PlacePictures | None = None,
 ) -> FolderCalibration:
     """Calibrate from the images of a folder; without a revision only gates that need no SKU judge it.
 
-    Raises FolderUnusable, TooFewViews, DegenerateViews, IntrinsicsInvalid. An image that cannot be used is
-    refused by name, and the rest goes on.
+    place: pictures that say where the camera is in the vehicle; those of the folder are not used otherwise.
+    Raises FolderUnusable, TooFewViews, DegenerateViews, IntrinsicsInvalid, and what `PlacePictures.detect`
+    raises. An image of the folder that cannot be used is refused by name, and the rest goes on.
     """
     nominal = revision.intrinsics if revision else None
     # Before the images, which take a while.
     check_request(nominal.image_size if nominal else (0, 0), lens, nominal, fixed)
-    paths = list_images(folder)
+    paths = [path for path in list_images(folder) if place is None or not place.names(path)]
+    fixed_target = None if place is None else place.detect()
     outcomes = [_observe(path, target) for path in paths]
     judged = calibrate_and_judge(
         [outcome for outcome in outcomes if isinstance(outcome, NamedDetection)],
@@ -68,8 +77,11 @@ def calibrate_folder(
         expectation_of(revision),
         fixed=fixed,
         refused=[outcome for outcome in outcomes if isinstance(outcome, Refusal)],
+        fixed_target=fixed_target,
     )
-    return FolderCalibration(target, judged, _outcomes(paths, judged))
+    return FolderCalibration(
+        target, judged, _outcomes(paths, judged), None if place is None else place.fixture
+    )
 
 
 def list_images(folder: Path) -> list[Path]:
@@ -98,25 +110,17 @@ def expectation_of(revision: Revision | None) -> Expectation | None:
         limits=revision.limits,
         working_zone=revision.working_zone,
         valid_region=revision.valid_region,
+        mounting=revision.mounting,
     )
 
 
 def _observe(path: Path, target: Target) -> NamedDetection | Refusal:
     try:
-        data = _read(path)
+        data = read_image_file(path)
         detection = detect_target(decode_image(data, path.name), target)
     except ServiceError as error:
         return Refusal(path.name, error.code, error.detail)
     return NamedDetection(path.name, detection, image_sha256(data))
-
-
-def _read(path: Path) -> bytes:
-    """Return a file's bytes, one more than is accepted at most."""
-    try:
-        with path.open("rb") as file:
-            return file.read(LARGEST_BYTES + 1)
-    except OSError as error:
-        raise ImageUnreadable(f"{path.name} cannot be read: {error.strerror}.", name=path.name) from error
 
 
 def _outcomes(paths: list[Path], judged: Judged) -> tuple[ImageOutcome, ...]:

@@ -5,9 +5,11 @@ Text is plain ASCII, so that it can be read on any terminal. Not here: printing 
 
 from collections.abc import Iterator
 from dataclasses import asdict
+from math import degrees
 from typing import Any
 
 from service.core.quality.gates import Measurement
+from service.usecases.extrinsics_document import extrinsics_document
 from service.usecases.folder_calibration import FolderCalibration
 from service.usecases.observation import number_or_null
 from service.usecases.result_document import versions
@@ -38,6 +40,7 @@ def report_document(calibration: FolderCalibration) -> JsonObject:
             "valid_worst_px": number_or_null(valid.worst_px),
         },
         "score": judged.score,
+        "extrinsics": _extrinsics_document(calibration),
         "gates": [asdict(measurement) for measurement in judged.measurements],
         "images": [{**asdict(image), "status": image.status} for image in calibration.images],
         "starts": [{**asdict(start), "rms_px": number_or_null(start.rms_px)} for start in result.starts],
@@ -54,6 +57,7 @@ def report_text(calibration: FolderCalibration) -> str:
             "",
             *_intrinsics(calibration),
             "",
+            *_extrinsics(calibration),
             *_gates(calibration.judged.measurements),
             *_refused(calibration),
         ]
@@ -98,13 +102,47 @@ def _intrinsics(calibration: FolderCalibration) -> Iterator[str]:
         )
 
 
+def _extrinsics_document(calibration: FolderCalibration) -> JsonObject | None:
+    """Return where the camera is in the vehicle; its pictures have no ids, only names."""
+    judged = calibration.judged
+    if judged.extrinsics is None or calibration.fixture is None:
+        return None
+    names = {name: name for name in judged.fixed_views}
+    document = extrinsics_document(judged.extrinsics, list(names), names, calibration.fixture.to_json())
+    for view in document["views"]:
+        del view["capture_id"]
+    return document
+
+
+def _extrinsics(calibration: FolderCalibration) -> Iterator[str]:
+    document = _extrinsics_document(calibration)
+    if document is None:
+        return
+    yield f"{'Extrinsics':<12}{'value':>14}{'sd':>12}  T_vehicle_cam"
+    places = zip(document["pose"]["tvec"], document["translation_sd_mm"], strict=True)
+    for axis, (place, sd) in zip("xyz", places, strict=True):
+        yield f"  {axis:<10}{1000.0 * place:>14.3f}{sd:>12.3f} mm"
+    turns = zip(document["pose"]["rvec"], document["rotation_sd_mdeg"], strict=True)
+    for axis, (turn, sd_mdeg) in zip("xyz", turns, strict=True):
+        yield f"  {'turn ' + axis:<10}{degrees(turn):>14.4f}{sd_mdeg / 1000.0:>12.4f} deg"
+    parts = document["parts"]
+    for name in ("translation_sd_mm", "rotation_sd_mdeg"):
+        sources = ", ".join(f"{source} {part[name]:.3g}" for source, part in parts.items())
+        yield f"  {name} by source: {sources}"
+    yield (
+        f"{len(document['views'])} picture(s) of {document['fixture']['target']}, "
+        f"RMS error {document['rms_px']:.4f} px"
+    )
+    yield ""
+
+
 def _gates(measurements: tuple[Measurement, ...]) -> Iterator[str]:
-    yield f"{'Gate':<11}{'measurement':<23}{'value':>12}    {'limit':<10}{'':<13}{'verdict'}"
+    yield f"{'Gate':<12}{'measurement':<23}{'value':>12}    {'limit':<10}{'':<13}{'verdict'}"
     for one in measurements:
         value = "unknown" if one.value is None else f"{one.value:.4g}"
         limit = "" if one.limit is None else f"{one.comparison} {one.limit:.4g}"
         verdict = "reported" if one.limit is None else one.verdict.value
-        yield f"{one.gate:<11}{one.name:<23}{value:>12}    {limit:<10}{one.unit:<13}{verdict}"
+        yield f"{one.gate:<12}{one.name:<23}{value:>12}    {limit:<10}{one.unit:<13}{verdict}"
 
 
 def _refused(calibration: FolderCalibration) -> Iterator[str]:

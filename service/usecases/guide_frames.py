@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.errors import BadRequest, PoseUndetermined, WrongImageSize
-from service.core.guidance.guided_target import check_guided
 from service.core.guidance.observation import Observation
 from service.core.guidance.problems import FrameMoved
 from service.core.guidance.session_state import GuidanceSettings
@@ -102,9 +101,8 @@ class Eye:
         seen = self._detect(full, 1).image_points
         width = self._settings.intrinsics.image_size[0]
         if judged is not None and seen is not None:
-            moved = np.linalg.norm(seen - judged, axis=1)
-            both = ~np.isnan(moved)
-            if both.any() and float(moved[both].mean()) <= MOVED_SHARE * width:
+            orders = (seen, seen[::-1]) if self._settings.target.is_symmetric else (seen,)
+            if any(_mean_way(order, judged) <= MOVED_SHARE * width for order in orders):
                 return
         raise FrameMoved(
             "The full picture does not show the board where the live picture did. Hold it still until the "
@@ -113,7 +111,14 @@ class Eye:
         )
 
     def _detect(self, image: Pixels, scale: int) -> LiveDetection:
-        return detect_live(image, check_guided(self._settings.target), self._workspace, scale=scale)
+        return detect_live(image, self._settings.target, self._workspace, scale=scale)
+
+
+def _mean_way(points: Array, others: Array) -> float:
+    """Return the mean distance, px, of points (n, 2) that are not NaN in either; inf without any."""
+    ways = np.linalg.norm(points - others, axis=1)
+    both = ~np.isnan(ways)
+    return float(ways[both].mean()) if both.any() else float("inf")
 
 
 def check_size(frame: LiveFrame, image_size: tuple[int, int]) -> None:

@@ -13,7 +13,6 @@ from sqlalchemy.orm import Session
 
 from service.core.errors import NotFound, PoseSetNotPublished
 from service.core.guidance.actions import AddedPose
-from service.core.guidance.guided_target import check_guided
 from service.core.guidance.problems import OtherSkuOpen
 from service.core.run import Purpose, RunState, check_serial
 from service.core.vision.transforms import Pose
@@ -109,7 +108,7 @@ def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -
     """Return the open run of a serial at a station; opened where there is none.
 
     A run that was ordered without a station becomes this one's. Raises SerialInvalid, NotFound, OtherSkuOpen,
-    RevisionNotPublished, PoseSetNotPublished, TargetNotGuided.
+    RevisionNotPublished, PoseSetNotPublished.
     """
     station = get_station(session, code)
     # Two kiosks that scan the same serial at the same moment must not open two runs.
@@ -134,10 +133,7 @@ def take_run(session: Session, code: str, wish: Wish, who: str, now: datetime) -
 
 
 def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
-    """Return a run with its poses and what was captured.
-
-    Raises NotFound, PoseSetNotPublished, TargetNotGuided.
-    """
+    """Return a run with its poses and what was captured; raises NotFound, PoseSetNotPublished."""
     run = get_run(session, run_id)
     pose_set = None if run.pose_set_id is None else session.get_one(PoseSetRow, run.pose_set_id)
     if pose_set is None:
@@ -147,7 +143,6 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
             run=f"/api/v1/runs/{run_id}",
         )
     revision = session.get_one(SkuRevisionRow, run.sku_revision_id)
-    document = _guided_revision(revision)
     query = select(CaptureRow.pose_index).where(CaptureRow.run_id == run_id).order_by(CaptureRow.number)
     return GuidedRun(
         id=run.id,
@@ -155,7 +150,7 @@ def load_guided_run(session: Session, run_id: UUID) -> GuidedRun:
         sku=_sku_code(session, run),
         number=revision.number,
         purpose=run.purpose,
-        revision=document,
+        revision=SkuDocument.model_validate(revision.document).to_revision(),
         poses=tuple(pose_from_json(pose) for pose in pose_set.poses),
         captured=tuple(index for index in session.scalars(query) if index is not None),
         postponed=read_postponed(session, run_id),
@@ -185,16 +180,7 @@ def _open(session: Session, station: StationRow, serial: str, wish: Wish, *, who
             "publish one.",
             sku=wish.sku,
         )
-    run = session.get_one(RunRow, opened.id)
-    _guided_revision(session.get_one(SkuRevisionRow, run.sku_revision_id))
     return opened.id
-
-
-def _guided_revision(row: SkuRevisionRow) -> Revision:
-    """Return what a revision says; raises TargetNotGuided."""
-    revision = SkuDocument.model_validate(row.document).to_revision()
-    check_guided(revision.target)
-    return revision
 
 
 def _purpose(session: Session, station: StationRow, serial: str, wish: Wish) -> Purpose:

@@ -18,6 +18,7 @@ from service.core.guidance.session_view import view
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
 from service.core.vision.target import Target
+from service.core.vision.target_circles import Circles
 from service.core.vision.transforms import Array, Pose
 from service.storage.models import MeasurementRow
 from service.usecases.guide_estimate import Estimate
@@ -27,6 +28,15 @@ from service.usecases.results import ResultView
 
 Points = list[tuple[float, float]]
 WORST_FIRST = {Verdict.FAIL: 0, Verdict.MARGINAL: 1, Verdict.PASS: 2}
+
+
+@dataclass(frozen=True)
+class BoardView:
+    """How many corners or dots a board has; dot_steps: a dot's diameter over the grid's step."""
+
+    columns: int
+    rows: int
+    dot_steps: float | None
 
 
 @dataclass(frozen=True)
@@ -70,7 +80,7 @@ class GuidedRunView:
     revision: int
     purpose: Purpose
     image_size: tuple[int, int]
-    board: Target
+    board: BoardView
     poses: list[WantedPoseView]
     captured: list[int]
     pose_index: int | None
@@ -219,7 +229,7 @@ def view_run(
         revision=run.number,
         purpose=run.purpose,
         image_size=settings.intrinsics.image_size,
-        board=settings.target,
+        board=_view_board(settings.target),
         poses=wanted,
         captured=sorted(state.captured),
         pose_index=state.current,
@@ -297,6 +307,11 @@ def view_angles(pose: Pose, target: Target) -> AnglesView:
         roll_deg=float(np.degrees(np.arctan2(along[1], along[0]))),
         distance_m=float(np.linalg.norm(R @ target.centre + pose.tvec)),
     )
+
+
+def _view_board(target: Target) -> BoardView:
+    dot_steps = target.diameter_m / target.step_m if isinstance(target, Circles) else None
+    return BoardView(target.columns, target.rows, dot_steps)
 
 
 def _difference(state: SessionState) -> dict[str, Any] | None:

@@ -7,6 +7,7 @@ suits the camera (core).
 """
 
 import hashlib
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -42,6 +43,15 @@ def decode_image(data: bytes, name: str) -> NDArray[np.uint8]:
     if pixels.dtype != np.uint8:
         raise _depth(name, pixels.dtype.itemsize * 8)
     return _to_grey(pixels.astype(np.uint8, copy=False))
+
+
+def read_image_file(path: Path) -> bytes:
+    """Return a file's bytes, one more than is accepted at most; raises ImageUnreadable."""
+    try:
+        with path.open("rb") as file:
+            return file.read(LARGEST_BYTES + 1)
+    except OSError as error:
+        raise ImageUnreadable(f"{path.name} cannot be read: {error.strerror}.", name=path.name) from error
 
 
 def check_image(data: bytes, name: str) -> ImageHeader:

@@ -8,6 +8,7 @@ import numpy as np
 from service.core.errors import ImageTooLarge, PoseUndetermined, WrongImageSize
 from service.core.vision.camera import Intrinsics, project
 from service.core.vision.detection import Detection, detect_target
+from service.core.vision.half_turn import mean_distances
 from service.core.vision.outer_features import outer_places
 from service.core.vision.pose import estimate_pose
 from service.core.vision.sharpness import Sharpness
@@ -90,7 +91,7 @@ def match_error(detection: Detection, prescription: Prescription, pose: Pose) ->
     target = prescription.target
     wanted = outer_corners(prescription.nominal, target, pose)
     seen = outer_places(detection.image_points, detection.corner_ids, target, prescription.nominal)
-    error = float(np.mean(np.linalg.norm(seen - wanted, axis=1)))
+    error = float(mean_distances(seen, wanted, target))
     return error if np.isfinite(error) else None
 
 

@@ -54,7 +54,9 @@ def result_document(
         "agreement_px": number_or_null(result.agreement_px),
         "converged": result.converged,
         "early_finish": _early_finish(judged),
-        "extrinsics": extrinsics_document(judged, capture_ids, fixture),
+        "extrinsics": None
+        if judged.extrinsics is None
+        else extrinsics_document(judged.extrinsics, judged.fixed_views, capture_ids, fixture),
         "verdict": judged.verdict.value,
     }
 

@@ -24,7 +24,7 @@ from service.storage.models import (
     StationRow,
 )
 from service.storage.words import Language
-from service.usecases.board_shapes import present_drift
+from service.usecases.board_shapes import TargetView, view_targets
 from service.usecases.paging import PageRequest, Part
 from service.usecases.run_filter import RunFilter, is_first_of_serial
 from service.usecases.runs import RunView, view_runs
@@ -69,12 +69,14 @@ class YieldView:
 
 @dataclass(frozen=True)
 class StationStanding:
-    """A station with its newest open run, its newest finished one, and how its board has drifted."""
+    """A station with its newest open run, its newest finished one, its board and how that has drifted."""
 
     code: str
     name: str
     source: str  # with what is secret in it
     language: Language | None
+    fixture: dict[str, Any] | None
+    board: TargetView | None
     open_run: RunView | None
     last_run: RunView | None
     board_drift: dict[str, Any] | None
@@ -95,20 +97,33 @@ def list_station_standings(session: Session, page: PageRequest) -> Part[StationS
     part = list_stations(session, page)
     opened = _newest(session, [row.id for row in part.items], RunState.OPEN)
     finished = _newest(session, [row.id for row in part.items], RunState.FINISHED)
-    drifts = present_drift(session, [row.target_id for row in part.items if row.target_id is not None])
+    boards = view_targets(session, {row.target_id for row in part.items if row.target_id is not None})
     standings = [
-        StationStanding(
-            code=row.code,
-            name=row.name,
-            source=row.source,
-            language=row.language,
-            open_run=opened.get(row.code),
-            last_run=finished.get(row.code),
-            board_drift=None if row.target_id is None else drifts.get(row.target_id),
+        _standing(
+            row,
+            None if row.target_id is None else boards[row.target_id],
+            opened.get(row.code),
+            finished.get(row.code),
         )
         for row in part.items
     ]
     return Part(standings, part.next_cursor)
+
+
+def _standing(
+    row: StationRow, board: TargetView | None, opened: RunView | None, finished: RunView | None
+) -> StationStanding:
+    return StationStanding(
+        code=row.code,
+        name=row.name,
+        source=row.source,
+        language=row.language,
+        fixture=row.fixture,
+        board=board,
+        open_run=opened,
+        last_run=finished,
+        board_drift=None if board is None else board.drift,
+    )
 
 
 def _counts(session: Session, wanted: RunFilter) -> list[YieldCount]:

@@ -48,7 +48,7 @@ def test_the_run_message_shows_every_pose_and_the_accuracy_grows(station: Plant)
         few, all_of_them = kiosk.captures(4), kiosk.captures(POSES)
 
     assert [len(pose["outline"]) for pose in run["poses"]] == [4] * POSES
-    assert run["board"] == {"columns": 7, "rows": 5}
+    assert run["board"] == {"columns": 7, "rows": 5, "dot_steps": None}
     assert (run["captured"], run["pose_index"], run["accuracy"]) == ([], 0, None)
     assert all_of_them["accuracy"]["fx_px"] < few["accuracy"]["fx_px"]
 
@@ -288,22 +288,3 @@ def test_only_an_engineer_overrides_the_checks_of_a_capture(station: Plant, role
 
     assert answer["type"] == ("capture_accepted" if may else "problem")
     assert may or answer["code"] == "role-missing"
-
-
-def test_a_target_that_cannot_be_guided_is_said_and_opens_no_run(station: Plant) -> None:
-    dots = {**SKU, "code": "dots", "target": "circles:3x5:15mm:10mm", "pose_space": {"smallest_square_px": 5}}
-    station.expect(201, station.post("/skus", dots))
-    station.expect(200, station.post("/skus/dots/revisions/1/publish"))
-    made = station.expect(201, station.post("/skus/dots/revisions/1/pose-sets", {"poses": poses_json()}))
-    station.expect(200, station.post(f"/pose-sets/{made['pose_set']['id']}/publish"))
-
-    with connected(station) as kiosk:
-        kiosk.say("open_run", serial="VIN-DOTS", sku="dots")
-        assert refused(station, kiosk) == "target-not-guided"
-    assert station.get("/runs?serial=VIN-DOTS").json()["items"] == []
-
-    station.expect(201, station.post("/runs", {"sku": "dots", "serial": "VIN-DOTS", "station": "cal1"}))
-    with connected(station) as kiosk:
-        assert refused(station, kiosk) == "target-not-guided"
-        kiosk.say("open_run", serial="VIN-2", sku="tiny")
-        assert kiosk.until("run")["serial"] == "VIN-2"

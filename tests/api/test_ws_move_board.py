@@ -60,8 +60,7 @@ def test_moves_between_two_frames_add_up_and_the_board_stays_in_the_picture(stat
             kiosk.say("move_board", right_px=10.0)
         wanted = before["seen"]["outline"][0][0] + 40.0
         kiosk.until(lambda m: m["type"] == "state" and abs(m["seen"]["outline"][0][0] - wanted) < 3.0)
-        kiosk.say("move_board", right_px=5000.0)
-        kiosk.say("move_board", closer_share=-0.1)
+        kiosk.say("move_board", right_px=5000.0, closer_share=-0.1)
         after = [kiosk.until("state") for _ in range(6)][-1]
         kiosk.say("abort")
         kiosk.until("run_closed")

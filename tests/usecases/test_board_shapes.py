@@ -16,7 +16,7 @@ from service.core.vision.tolerance import Tolerance, draw_camera
 from service.core.vision.transforms import Array
 from service.storage.learnt import BoardShapeRow
 from service.storage.models import CalibrationRow, JobRow, MeasurementRow, RunRow, SkuRevisionRow, TargetRow
-from service.storage.words import Role, ShapeState
+from service.storage.words import CaptureRole, Role, ShapeState
 from service.usecases.board_learning import WATCH_EVERY, teaching_runs, watch_board
 from service.usecases.finish import recompute
 from tests.fakes import START
@@ -138,7 +138,8 @@ def test_a_shape_is_learnt_certified_used_and_named_by_the_result(line: Plant) -
     assert certainty["corner_mm"] < 0.02
     assert 0.0 < certainty["mapping_px"] < certainty["centre_px"] < 1.0
     assert shape["sigma_px"] < 0.07 < shape["sigma_flat_px"]
-    assert len(shape["deviations_mm"]) == len(shape["sd_mm"]) == 35
+    assert len(shape["deviations_mm"]) == len(shape["sd_mm"]) == len(shape["corners_mm"]) == 35
+    assert shape["corners_mm"][8] == pytest.approx([30.0, 30.0])
     assert line.get("/targets/BOARD-1").json()["certified_shape"] is None
 
     certified = line.expect(200, line.post(f"/board-shapes/{shape['id']}/certify", role=Role.ENGINEER))
@@ -180,6 +181,8 @@ def test_drift_is_told_on_the_board_and_its_station_before_and_beyond_its_limit(
     assert told["drift"]["state"] == "over"
     (standing,) = line.get("/statistics/stations").json()["items"]
     assert standing["board_drift"]["state"] == "over"
+    assert standing["board"]["serial"] == "BOARD-1"
+    assert standing["board"]["certified_shape"]["version"] == 1
 
     line.expect(200, line.post(f"/board-shapes/{second['id']}/certify"))
     states = [one["state"] for one in line.get("/targets/BOARD-1/shapes").json()["items"]]
@@ -198,6 +201,19 @@ def test_runs_whose_corners_are_wrong_do_not_teach(line: Plant) -> None:
         target = session.scalars(select(TargetRow)).one()
         assert len(teaching_runs(session, target, 30)) == 6
         assert len(teaching_runs(session, target, 4)) == 4
+
+
+def test_pictures_of_a_fixed_target_do_not_teach(line: Plant) -> None:
+    before = learn(line, 6)
+    with line.app.state.services.database.write() as session:
+        run = session.scalars(select(RunRow).where(RunRow.serial == "V0")).one()
+        picture = make_capture(run, 99, f"{99:064x}")
+        picture.role, picture.fixture = CaptureRole.EXTRINSICS, {}
+        picture.image_size = list(revision().intrinsics.image_size)
+        picture.corners, picture.corner_ids = [[10.0, 20.0]] * 4, [0, 1, 2, 3]
+        session.add(picture)
+
+    assert learn(line, 6)["deviations_mm"] == before["deviations_mm"]
 
 
 def test_a_shape_that_is_not_known_well_enough_is_not_certified(line: Plant) -> None:

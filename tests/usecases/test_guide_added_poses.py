@@ -182,8 +182,9 @@ def test_the_estimate_grows_with_the_captures_and_ends_where_the_result_is(small
     assert after is not None
     assert isinstance(told[-1], VerdictView)
     assert (before.captures, after.captures) == (COUNT - 1, COUNT)
-    assert after.mapping_mean_px == pytest.approx(result["mapping"]["zone_mean_px"], rel=1e-6)
-    assert after.parameters == pytest.approx(result["intrinsics"], rel=1e-6)
+    assert after.mapping_mean_px == pytest.approx(result["mapping"]["zone_mean_px"], rel=1e-3)
+    for name, value in result["intrinsics"].items():
+        assert abs(after.parameters[name] - value) <= 0.02 * result["sd"][name]
     assert after.reached == 1.0
 
 

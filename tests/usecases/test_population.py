@@ -24,7 +24,7 @@ from tests.fakes import START
 from tests.plant import Plant, problem, revision
 
 # As large as the tiny camera's calibrations make it.
-NOISE = np.diag(np.r_[0.4, 0.4, 0.4, 0.4, 0.003, 0.02, 2e-4, 2e-4, 0.02] ** 2)
+NOISE = np.diag(np.r_[0.012, 0.012, 0.02, 0.02, 2e-4, 1e-3, 2e-5, 2e-5, 2e-3] ** 2)
 SPREAD = Tolerance(coefficients={"k1": 0.005, "k2": 0.01, "p1": 3e-4, "p2": 3e-4, "k3": 0.01})
 
 
@@ -174,7 +174,7 @@ def test_the_population_is_read(small_plant: Plant) -> None:
     centre = next(one for one in found["parameters"] if one["name"] == "cx")
     assert centre["nominal"] == revision().intrinsics.parameters["cx"]
     assert 1.8 < centre["sd_between"] < 2.8  # of an even spread of 4 px to either side: 2.3
-    assert abs(centre["sd_own"] - 0.4) < 1e-9
+    assert abs(centre["sd_own"] - 0.02) < 1e-9
     assert 0.2 < found["start_limits_used"] < 0.9
     assert len(found["covariance"]) == len(found["parameters"]) == 9
     problem(small_plant.get("/skus/none/population"), 404, "not-found")

@@ -77,7 +77,10 @@ class BoardShape(Answer):
 class BoardShapeDetail(BoardShape):
     """A shape with its corners in the order of the pattern, x y z, and the runs behind it."""
 
-    deviations_mm: list[tuple[float, float, float]]
+    corners_mm: list[tuple[float, float]] = Field(description="Where the pattern has them, x y.")
+    deviations_mm: list[tuple[float, float, float]] = Field(
+        description="From there; z points away from who looks at the board."
+    )
     sd_mm: list[tuple[float, float, float]]
     run_ids: list[UUID]
 

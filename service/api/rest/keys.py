@@ -6,7 +6,7 @@ from uuid import UUID
 from fastapi import APIRouter
 from pydantic import ConfigDict, Field
 
-from service.api.auth import Admin
+from service.api.auth import Admin, Viewer
 from service.api.dependencies import Db, Now, PageOf, ReadDb
 from service.api.shapes import Answer, Id, Page, Request
 from service.storage.words import Role
@@ -37,6 +37,14 @@ class ApiKey(Answer):
     revoked_at: datetime | None
 
 
+class OwnKey(Answer):
+    """The key that asks: whose it is, and what it may do."""
+
+    id: UUID
+    name: str
+    role: Role
+
+
 class ApiKeyMade(ApiKey):
     """A new key with its secret, which is not stored and cannot be shown again."""
 
@@ -53,6 +61,12 @@ def create_key(body: NewKey, caller: Admin, db: Db, now: Now) -> ApiKeyMade:
 def list_keys(caller: Admin, db: ReadDb, page: PageOf) -> Page[ApiKey]:
     """List the keys, newest first, revoked ones too."""
     return Page[ApiKey].model_validate(access.list_keys(db, page))
+
+
+@router.get("/own", summary="Read the key that asks")
+def read_own_key(caller: Viewer) -> OwnKey:
+    """Read whose key this is and its role, so that a page offers only what its key may do."""
+    return OwnKey.model_validate(caller)
 
 
 @router.post("/{key_id}/revoke", summary="Revoke an API key")

@@ -47,7 +47,9 @@ class BoardPose(Answer):
 class ViewResult(Answer):
     """What the solve says about one capture."""
 
-    capture_id: UUID
+    capture_id: UUID = Field(
+        description="Of the capture; of extrinsics that were measured after the run, of the picture."
+    )
     name: str
     rms_px: float
     max_px: float

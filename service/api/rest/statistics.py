@@ -10,9 +10,11 @@ from service.api.auth import Viewer
 from service.api.dependencies import Now, PageOf, ReadDb
 from service.api.rest.board_shapes import Drift
 from service.api.rest.runs import RunSummary
+from service.api.rest.targets import TargetDetail
 from service.api.shapes import Answer, Page, ShownSource
 from service.storage.words import Language
 from service.usecases import statistics
+from service.usecases.fixture_document import FixtureDocument
 from service.usecases.text import Code
 
 router = APIRouter(prefix="/statistics", tags=["Statistics"])
@@ -52,12 +54,14 @@ class Yield(Answer):
 
 
 class StationStanding(Answer):
-    """A station with its newest open run, its newest finished one, and how its board has drifted."""
+    """A station with its newest open run, its newest finished one, its board and how that has drifted."""
 
     code: str
     name: str
     source: ShownSource
     language: Language | None
+    fixture: FixtureDocument | None = Field(description="Its fixed target in the vehicle frame, if any.")
+    board: TargetDetail | None = Field(description="The board that stands there, with its certified shape.")
     open_run: RunSummary | None
     last_run: RunSummary | None
     board_drift: Drift | None = Field(

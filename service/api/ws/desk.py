@@ -15,7 +15,7 @@ from anyio import to_thread
 from service.api.ws.link import Link
 from service.api.ws.messages import message_of, state_message
 from service.core.errors import ServiceError, StateForbids
-from service.core.guidance.problems import FrameForgotten, KioskLeft, StationHeld, TargetNotGuided
+from service.core.guidance.problems import FrameForgotten, KioskLeft, StationHeld
 from service.ports import FrameSource, LiveFrame
 from service.storage.words import FrameOrigin
 from service.usecases.guide import GuidedSession, Plant, open_session, resume_session
@@ -96,14 +96,9 @@ class Desk:
         """Show a client that was welcomed where the station stands; a kiosk resumes the open run."""
         async with self._lock:
             if self.session is None and link.role == "kiosk" and station.run_id is not None:
-                try:
-                    session = await to_thread.run_sync(
-                        resume_session, self._plant, station.run_id, link.caller.name
-                    )
-                except TargetNotGuided as error:
-                    # Whoever captures this run by other means must not keep the kiosk from other vehicles.
-                    link.tell(message_of(error))
-                    return
+                session = await to_thread.run_sync(
+                    resume_session, self._plant, station.run_id, link.caller.name
+                )
                 await self._attach(session)
             elif self.session is not None:
                 link.tell(message_of(self.session.show_run()))

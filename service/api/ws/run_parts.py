@@ -61,7 +61,11 @@ class Estimate(Told):
 
 
 class BoardSize(Told):
-    """Inner corners of the board; corners come row by row, `columns` in a row."""
+    """Corners of the board, or dots of a grid of circles; they come row by row, `columns` in a row."""
 
     columns: int
     rows: int
+    dot_steps: float | None = Field(
+        description="Diameter of a dot in steps of a grid of circles; every other row is shifted by a step. "
+        "Null for a board of squares."
+    )

@@ -8,8 +8,9 @@ import cv2
 import numpy as np
 import pytest
 
+from service.core.vision.camera import project
 from service.storage.words import Role
-from tests.plant import Plant, encode, picture, problem, revision
+from tests.plant import Plant, encode, picture, pose_set, problem, revision
 
 
 def grey(width: int = 640, height: int = 400) -> np.ndarray:
@@ -18,6 +19,13 @@ def grey(width: int = 640, height: int = 400) -> np.ndarray:
 
 def seen() -> np.ndarray:
     return np.asarray(cv2.imdecode(np.frombuffer(picture(0), np.uint8), cv2.IMREAD_UNCHANGED))
+
+
+def half_hidden() -> np.ndarray:
+    """The first picture with everything to the right of the board's middle covered."""
+    sku, pose = revision(), pose_set().poses[0]
+    middle = project(sku.intrinsics, pose.rotation, pose.tvec, sku.target.centre[None])[0, 0]
+    return np.where(np.arange(640) < middle, seen(), 128).astype(np.uint8)
 
 
 def declared(width: int, height: int) -> bytes:
@@ -162,11 +170,7 @@ BAD_IMAGES: dict[str, tuple[Callable[[], bytes], int, str]] = {
     "wrong size": (lambda: encode(grey(639, 400)), 422, "wrong-image-size"),
     "bomb": (lambda: declared(100_000, 100_000), 413, "image-too-large"),
     "no board": (lambda: encode(grey()), 422, "target-not-visible"),
-    "half a board": (
-        lambda: encode(np.where(np.arange(640) < 320, seen(), 128).astype(np.uint8)),
-        422,
-        "target-not-visible",
-    ),
+    "half a board": (lambda: encode(half_hidden()), 422, "target-not-visible"),
 }
 
 

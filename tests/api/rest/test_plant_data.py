@@ -43,6 +43,13 @@ def test_a_new_key_works_until_it_is_revoked(plant: Plant) -> None:
     problem(plant.post(f"/keys/{uuid4()}/revoke"), 404, "not-found")
 
 
+def test_a_key_of_any_role_reads_whose_it_is_and_what_it_may(small_plant: Plant) -> None:
+    for role in Role:
+        own = small_plant.expect(200, small_plant.get("/keys/own", role=role))
+        assert (own["name"], own["role"]) == (role.value, role.value)
+        assert "key" not in own
+
+
 def test_a_vehicle_has_a_history_and_a_latest_result(plant: Plant) -> None:
     plant.publish_sku()
     first = plant.finished_run("VIN-1")
