@@ -1,4 +1,4 @@
-"""The camera's place in the vehicle on a run's page."""
+"""The camera's place in the vehicle on a run's page, measured within the run and after it."""
 
 from pathlib import Path
 
@@ -6,6 +6,7 @@ from playwright.sync_api import Page, expect
 
 from service.demo.customer import Customer
 from tests.api.rest.test_extrinsics import FIXTURE, PICTURE, T_VEHICLE_CAM, pose_json
+from tests.browser.access import Access
 from tests.browser.chromium import Watch
 from tests.browser.serving import Serving
 from tests.plant import SKU, picture, pose_set, poses_json
@@ -42,4 +43,38 @@ def test_the_place_in_the_vehicle_is_shown_with_its_uncertainty(
     expect(panel).to_contain_text(FIXTURE["target"])
     expect(page.get_by_text("Position from nominal")).to_be_visible()
     page.screenshot(path=shots / "run-extrinsics.png", full_page=True)
+    assert (watch.errors, watch.outside, watch.refused) == ([], [], [])
+
+
+def test_what_was_measured_after_the_run_is_shown_with_its_own_verdict(
+    page: Page, serving: Serving, watch: Watch, shots: Path, access: Access
+) -> None:
+    customer = Customer.of(serving.url, serving.key)
+    with customer.http:
+        customer.describe_sku({**SKU, "code": "later", "mounting": pose_json(T_VEHICLE_CAM)})
+        made = customer.ask("POST", "/skus/later/revisions/1/pose-sets", json={"poses": poses_json()})
+        customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
+        moved = {**FIXTURE, "pose": {**FIXTURE["pose"], "tvec": [1.52, 0.2, 1.0]}}
+        customer.ask("POST", "/stations", json={"code": "later1", "name": "Later 1", "fixture": moved})
+        order = {"sku": "later", "serial": "VIN-LATER", "purpose": "simulated"}
+        run_id = str(customer.ask("POST", "/runs", json=order)["id"])
+        for i in range(len(pose_set().poses)):
+            files = {"image": ("image.png", picture(i), "image/png")}
+            customer.ask("POST", f"/runs/{run_id}/captures?pose_index={i}", files=files)
+        customer.ask("POST", f"/runs/{run_id}/finish")
+        files = {"image": ("image.png", PICTURE, "image/png")}
+        customer.ask("POST", f"/runs/{run_id}/extrinsics?station=later1", files=files)
+    page.set_viewport_size({"width": 1600, "height": 1400})
+    page.goto(f"{serving.url}/#key={serving.key}&/runs/{run_id}")
+
+    panel = page.get_by_role("region", name="Place in the vehicle, after the run")
+
+    expect(panel.locator("tbody tr")).to_have_count(6)
+    expect(panel).to_contain_text("at later1")
+    expect(panel.locator(".tag")).to_have_text("FAIL")
+    expect(panel).to_contain_text("The camera is not where it belongs.")
+    expect(page.locator(".banner")).to_contain_text("PASS")
+    access.look(page, "extrinsics after the run")
+    page.screenshot(path=shots / "run-later-extrinsics.png", full_page=True)
+    assert not access.found, "\n".join(access.found)
     assert (watch.errors, watch.outside, watch.refused) == ([], [], [])

@@ -169,7 +169,7 @@ def test_figures_and_maps_are_the_services(page: Page, sets: Sets, watch: Watch,
     assert box is not None
     page.mouse.move(box["x"] + box["width"] / 2 + 2, box["y"] + box["height"] / 2)
     value = review["maps"]["sd_px"][12][20]
-    expect(errors.locator(".heat-read")).to_contain_text(f"{value:.4f}")
+    expect(errors.locator(".heat-read")).to_contain_text(f"{value:.3g}")
     assert changes(field, errors.get_by_role("button", name="mdeg").click) > 300
     expect(errors.locator(".heat-scale")).to_contain_text("mdeg")
     expect(page.get_by_role("region", name="How many poses")).to_be_visible()

@@ -1,5 +1,6 @@
 """From a strange point to its image, errors over the image, histories, and two runs side by side."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -231,8 +232,9 @@ def test_the_history_of_a_vehicle_has_a_chart_for_each_quantity_that_leads_to_th
     page.get_by_role("button", name=theme).click()
     charts = page.locator(".history-chart canvas")
     expect(charts).to_have_count(5)
-    fx = runs.passing["intrinsics"]["fx"]
-    expect(page.locator("table.history tbody tr")).to_contain_text(f"{fx:.3f}")
+    fx, sd = (runs.passing[part]["fx"] for part in ("intrinsics", "sd"))
+    decimals = 1 - math.floor(math.log10(sd))  # two digits of what is uncertain
+    expect(page.locator("table.history tbody tr")).to_contain_text(f"{fx:.{decimals}f}")
     page.wait_for_timeout(300)
     green = (0, 117, 88) if theme == "Light" else (43, 196, 151)
     near = np.abs(pixels_of(charts.first).astype(int) - np.array(green)).max(axis=2) < 12

@@ -5,9 +5,16 @@ import { meansUnreachable, mustAskForKey, problemFrom, RequestFailed, UNREACHABL
 import { fileNameOf } from "./file_name";
 import { partPath, ROOT, runsPath, yieldPath, type RunsQuery } from "./paths";
 import type {
+  BoardShape,
+  BoardShapeDetail,
   CaptureDetail,
   ExportFormats,
+  FixtureDocument,
+  Job,
   Language,
+  OwnKey,
+  PageBoardShape,
+  PageLaterExtrinsics,
   PagePoseSetSummary,
   PageRunSummary,
   PageSku,
@@ -24,6 +31,7 @@ import type {
   SharedPicture,
   SkuDetail,
   Station,
+  TargetDetail,
   TargetPattern,
   Vehicle,
   VehicleHistory,
@@ -92,6 +100,15 @@ export function getResultMaps(id: string, signal?: AbortSignal): Promise<ResultM
   return getJson(`${ROOT}/runs/${encodeURIComponent(id)}/result/maps`, signal);
 }
 
+/** What was measured of a run's camera after the run. */
+export function getLaterExtrinsics(
+  id: string,
+  cursor: string | null,
+  signal?: AbortSignal,
+): Promise<PageLaterExtrinsics> {
+  return getJson(partPath(`/runs/${encodeURIComponent(id)}/extrinsics`, cursor), signal);
+}
+
 export function getComparison(a: string, b: string, signal?: AbortSignal): Promise<RunComparison> {
   return getJson(`${ROOT}/runs/${encodeURIComponent(a)}/comparison/${encodeURIComponent(b)}`, signal);
 }
@@ -124,13 +141,23 @@ export async function setStationLanguage(code: string, language: Language | null
   return changeStation(code, { language });
 }
 
+/** Null takes the fixture away. */
+export async function setStationFixture(code: string, fixture: FixtureDocument | null): Promise<Station> {
+  return changeStation(code, { fixture });
+}
+
 async function changeStation(
   code: string,
-  body: { source: string } | { language: Language | null },
+  body: { source: string } | { language: Language | null } | { fixture: FixtureDocument | null },
 ): Promise<Station> {
   const path = `${ROOT}/stations/${encodeURIComponent(code)}`;
   const answer = await request(path, undefined, { method: "PATCH", body });
   return (await answer.json()) as Station;
+}
+
+/** The key of this tab itself. */
+export function getOwnKey(): Promise<OwnKey> {
+  return getJson(`${ROOT}/keys/own`);
 }
 
 export function getSkus(cursor: string | null, signal?: AbortSignal): Promise<PageSku> {
@@ -208,6 +235,39 @@ export function importPoseSet(code: string, revision: number, document: unknown)
 
 export function getTargets(cursor: string | null, signal?: AbortSignal): Promise<PageTarget> {
   return getJson(partPath("/targets", cursor), signal);
+}
+
+/** `board`: its serial or id. */
+export function getBoard(board: string, signal?: AbortSignal): Promise<TargetDetail> {
+  return getJson(`${ROOT}/targets/${encodeURIComponent(board)}`, signal);
+}
+
+export function getShapes(
+  board: string,
+  cursor: string | null,
+  signal?: AbortSignal,
+): Promise<PageBoardShape> {
+  return getJson(partPath(`/targets/${encodeURIComponent(board)}/shapes`, cursor), signal);
+}
+
+export function getShape(id: string, signal?: AbortSignal): Promise<BoardShapeDetail> {
+  return getJson(`${ROOT}/board-shapes/${encodeURIComponent(id)}`, signal);
+}
+
+export function learnShape(board: string, runs: number): Promise<Job> {
+  return postJson(`${ROOT}/targets/${encodeURIComponent(board)}/shape`, { runs });
+}
+
+export function certifyShape(id: string): Promise<BoardShape> {
+  return postJson(`${ROOT}/board-shapes/${encodeURIComponent(id)}/certify`);
+}
+
+export function retireShape(id: string): Promise<BoardShape> {
+  return postJson(`${ROOT}/board-shapes/${encodeURIComponent(id)}/retire`);
+}
+
+export function getJob(id: string, signal?: AbortSignal): Promise<Job> {
+  return getJson(`${ROOT}/jobs/${encodeURIComponent(id)}`, signal);
 }
 
 export function getPattern(spec: string, signal?: AbortSignal): Promise<TargetPattern> {

@@ -5,6 +5,7 @@ import { Header, OfflineBar } from "../shell/header";
 import { KeyForm } from "../shell/key_form";
 import { route } from "./address";
 import type { Route } from "./route";
+import { BoardPage } from "./board_page";
 import { ReviewPage } from "./review_page";
 import { RunComparisonPage } from "./run_comparison_page";
 import { RunPage } from "./run_page";
@@ -39,6 +40,16 @@ function Page({ route: to }: { route: Route }): JSX.Element {
       return <VehiclePage serial={to.serial} />;
     case "runs":
       return <RunsPage filter={to.filter} />;
+    default:
+      return <PlantPage route={to} />;
+  }
+}
+
+type PlantRoute = Exclude<Route, { page: "run" | "compare" | "vehicle" | "runs" }>;
+
+/** Pages that are not about runs of vehicles. */
+function PlantPage({ route: to }: { route: PlantRoute }): JSX.Element {
+  switch (to.page) {
     case "stations":
       return <StationsPage />;
     case "skus":
@@ -51,6 +62,8 @@ function Page({ route: to }: { route: Route }): JSX.Element {
       return <TargetsPage />;
     case "target":
       return <TargetPage key={to.spec} spec={to.spec} />;
+    case "board":
+      return <BoardPage key={to.board} name={to.board} version={to.shape} />;
     case "yield":
       return <YieldPage sku={to.sku} station={to.station} />;
   }

@@ -1,8 +1,6 @@
 // The predicted error against the number of poses, of one set or of two; shown only where a planner told it.
 import { type JSX } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import "uplot/dist/uPlot.min.css";
-import uPlot from "uplot";
 import { countOptions, type CountChart } from "../drawing/count_chart";
 import { columnsOf, pointAt, QUANTITIES, type Curve, type Quantity } from "../drawing/count_curve";
 import { coloursOf } from "../drawing/drawing";
@@ -11,6 +9,7 @@ import { plain, significant, withUnit } from "../format/numbers";
 import { dark } from "../look/theme";
 import { language, words } from "../words/language";
 import type { Words } from "../words/en";
+import { mountPlot } from "./mounted_plot";
 
 const HEIGHT_PX = 290;
 
@@ -84,16 +83,8 @@ function Chart({ curves, required, label, onPoint }: ChartProps): JSX.Element {
       },
       onPoint,
     };
-    const size = { width: current.clientWidth, height: HEIGHT_PX };
-    const plot = new uPlot(countOptions(chart, size, coloursOf(current)), columnsOf(curves), current);
-    const observer = new ResizeObserver(() => {
-      if (current.clientWidth !== plot.width) plot.setSize({ width: current.clientWidth, height: HEIGHT_PX });
-    });
-    observer.observe(current);
-    return () => {
-      observer.disconnect();
-      plot.destroy();
-    };
+    const colours = coloursOf(current);
+    return mountPlot(current, HEIGHT_PX, (size) => countOptions(chart, size, colours), columnsOf(curves));
   }, [curves, required, onPoint, say, spoken, isDark]);
 
   return <div ref={place} class="count-chart" role="img" aria-label={label} />;

@@ -19,6 +19,16 @@ export function ExtrinsicsPanel({ result }: { result: Result }): JSX.Element | n
         <h2 id="extrinsics-title">{say.extrinsics_title}</h2>
         <span class="muted">T_vehicle_cam</span>
       </div>
+      <ExtrinsicsBody extrinsics={extrinsics} />
+    </section>
+  );
+}
+
+/** The estimate with what its uncertainty comes from. */
+export function ExtrinsicsBody({ extrinsics }: { extrinsics: Extrinsics }): JSX.Element {
+  const say = words.value;
+  return (
+    <>
       <EstimateTable caption={say.extrinsics_caption} unit="mm">
         {AXES.map((axis, i) => (
           <Row
@@ -40,7 +50,7 @@ export function ExtrinsicsPanel({ result }: { result: Result }): JSX.Element | n
         ))}
       </EstimateTable>
       <Facts facts={factsOf(extrinsics, say)} />
-    </section>
+    </>
   );
 }
 

@@ -1,4 +1,4 @@
-// One heat map over the camera's image, with its scale and the value under the pointer.
+// One heat map over a camera's image or a board, with its scale and the value under the pointer.
 import { type JSX } from "preact";
 import { useCallback, useRef, useState } from "preact/hooks";
 import { Drawing, type Draw } from "../drawing/drawing";
@@ -7,11 +7,11 @@ import { cellAt, centreOf, largestOf, type Cell, type Grid, type Zone } from "..
 import { fit, toImage } from "../drawing/viewport";
 import { words } from "../words/language";
 
-/** The image that the grid lies over. */
+/** What the grid lies over: a camera's image with its zones, or without them something else. */
 export interface HeatGround {
   image_size: [number, number];
-  working_zone: Zone;
-  valid_region: Zone;
+  working_zone?: Zone;
+  valid_region?: Zone;
 }
 
 export interface HeatScale {
@@ -36,7 +36,7 @@ interface Props {
 
 export function HeatFigure({ label, grid, scale, ground, gaps, read }: Props): JSX.Element {
   const say = words.value;
-  const place = useRef<HTMLDivElement>(null);
+  const field = useRef<HTMLDivElement>(null);
   const [cell, setCell] = useState<Cell | null>(null);
   const [width, height] = ground.image_size;
   const end = scale.ticks.at(-1) ?? 1;
@@ -46,7 +46,14 @@ export function HeatFigure({ label, grid, scale, ground, gaps, read }: Props): J
       drawHeatMap(
         context,
         size,
-        { grid, imageSize: { width, height }, end, write: scale.write, workingZone, validRegion },
+        {
+          grid,
+          imageSize: { width, height },
+          end,
+          write: scale.write,
+          ...(workingZone && { workingZone }),
+          ...(validRegion && { validRegion }),
+        },
         colours,
       ),
     [grid, width, height, end, scale, workingZone, validRegion],
@@ -62,25 +69,27 @@ export function HeatFigure({ label, grid, scale, ground, gaps, read }: Props): J
     [grid, scale, end],
   );
   const point = (event: MouseEvent): void => {
-    const box = place.current?.getBoundingClientRect();
+    const box = field.current?.getBoundingClientRect();
     if (box === undefined) return;
     const at = { x: event.clientX - box.left, y: event.clientY - box.top };
     setCell(cellAt(grid, { width, height }, toImage(fit({ width, height }, box), at)));
   };
-  const at = cell === null ? null : centreOf(grid, { width, height }, cell);
+  const place = (at: Cell): string => {
+    if (workingZone === undefined) return "";
+    const { x, y } = centreOf(grid, { width, height }, at);
+    return `${say.heat_at(Math.round(x), Math.round(y))} `;
+  };
   const hasGaps = grid.some((row) => row.includes(null));
   return (
     <figure class="field-figure heat">
       <figcaption>
-        <span class="key muted">{say.review_key_zone}</span>
-        <span class="key muted">{say.review_key_valid}</span>
+        {workingZone !== undefined && <span class="key muted">{say.review_key_zone}</span>}
+        {validRegion !== undefined && <span class="key muted">{say.review_key_valid}</span>}
         {hasGaps && <span class="key muted">{gaps}</span>}
-        <span class="key heat-read">
-          {cell !== null && at !== null && `${say.heat_at(Math.round(at.x), Math.round(at.y))} ${read(cell)}`}
-        </span>
+        <span class="key heat-read">{cell !== null && `${place(cell)}${read(cell)}`}</span>
       </figcaption>
       <div
-        ref={place}
+        ref={field}
         class="field"
         style={{ aspectRatio: `${width} / ${height}` }}
         onMouseMove={point}

@@ -6,6 +6,9 @@ import { fixed } from "../format/numbers";
 import { words } from "../words/language";
 import type { HeatGround, HeatScale } from "./heat_figure";
 
+/** The ground of an error is an image, with the zones that count. */
+type ImageGround = Required<HeatGround>;
+
 export const ERROR_UNITS = ["px", "mdeg"] as const;
 export type ErrorUnit = (typeof ERROR_UNITS)[number];
 
@@ -27,11 +30,11 @@ function shortly(value: number, spoken: string): string {
 }
 
 /** The largest value that counts for a scale: beyond the valid region an error may grow without end. */
-export function largestWithin(grid: Grid, ground: HeatGround): number {
+export function largestWithin(grid: Grid, ground: ImageGround): number {
   return rangeWithin(grid, sizeOf(ground), ground.valid_region).largest;
 }
 
-export function labelOf(name: string, ground: HeatGround, grid: Grid, scale: HeatScale): string {
+export function labelOf(name: string, ground: ImageGround, grid: Grid, scale: HeatScale): string {
   const { least, largest } = rangeWithin(grid, sizeOf(ground), ground.valid_region);
   return words.value.heat_label(name, scale.unit, scale.write(least), scale.write(largest));
 }

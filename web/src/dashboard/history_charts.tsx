@@ -1,8 +1,6 @@
 // One small chart for each quantity of a history; a point leads to its run.
 import { type JSX } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import "uplot/dist/uPlot.min.css";
-import uPlot from "uplot";
 import { coloursOf } from "../drawing/drawing";
 import { historyData, historyOptions } from "../drawing/history_chart";
 import type { HistoryPoint } from "../drawing/history_points";
@@ -16,6 +14,7 @@ import { language, words } from "../words/language";
 import { QUANTITIES, quantityOf, type QuantityName } from "./history_quantities";
 import { addressOf } from "./route";
 import { standingWord } from "./runs_table";
+import { mountPlot } from "./mounted_plot";
 
 const HEIGHT_PX = 150;
 const STEPS = 5;
@@ -104,16 +103,8 @@ function Chart({ points, calibrations, label, onPoint }: ChartProps): JSX.Elemen
       name: (at: number) => dayOf(calibrations[at], localeOf(spoken)),
       onPoint,
     };
-    const size = { width: current.clientWidth, height: HEIGHT_PX };
-    const plot = new uPlot(historyOptions(chart, size, coloursOf(current)), historyData(points), current);
-    const observer = new ResizeObserver(() => {
-      if (current.clientWidth !== plot.width) plot.setSize({ width: current.clientWidth, height: HEIGHT_PX });
-    });
-    observer.observe(current);
-    return () => {
-      observer.disconnect();
-      plot.destroy();
-    };
+    const colours = coloursOf(current);
+    return mountPlot(current, HEIGHT_PX, (size) => historyOptions(chart, size, colours), historyData(points));
   }, [points, calibrations, onPoint, spoken, isDark]);
 
   return <div ref={place} class="history-chart" role="img" aria-label={label} />;

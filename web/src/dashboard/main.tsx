@@ -10,8 +10,10 @@ import "../look/plant.css";
 import "../look/review.css";
 import "../look/results.css";
 import "../look/targets.css";
+import "../look/boards.css";
 import { render } from "preact";
 import { takeKeyFromAddress } from "../api/key";
+import { followKey } from "../api/own_role";
 import { showFirstTheme } from "../look/theme";
 import { speakFirstLanguage } from "../words/language";
 import { App } from "./app";
@@ -20,6 +22,7 @@ import { followAddress } from "./address";
 takeKeyFromAddress();
 showFirstTheme();
 speakFirstLanguage();
+followKey();
 followAddress();
 
 const place = document.getElementById("app");

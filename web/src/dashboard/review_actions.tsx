@@ -2,6 +2,7 @@
 import { type JSX } from "preact";
 import { useState } from "preact/hooks";
 import { exportPoseSet, publishPoseSet, retirePoseSet } from "../api/client";
+import { isEngineer } from "../api/own_role";
 import type { PoseSet } from "../generated/api";
 import { saveFile } from "../shell/files";
 import { ProblemNotice } from "../shell/notices";
@@ -26,15 +27,16 @@ export function ReviewActions({ set, onChange }: Props): JSX.Element {
       saveFile(name, content);
     });
   const isPlanned = set.poses.length > 0;
+  const mayChange = isEngineer.value;
   const leave = (): void => setAsked(null);
   return (
     <div class="review-actions">
-      {set.state === "draft" && isPlanned && (
+      {mayChange && set.state === "draft" && isPlanned && (
         <button type="button" class="primary" disabled={action.isBusy} onClick={() => setAsked("publish")}>
           {say.review_publish}
         </button>
       )}
-      {set.state === "published" && (
+      {mayChange && set.state === "published" && (
         <button type="button" disabled={action.isBusy} onClick={() => setAsked("retire")}>
           {say.review_retire}
         </button>

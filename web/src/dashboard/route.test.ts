@@ -16,6 +16,8 @@ const ROUTES: Route[] = [
   { page: "sku", code: "lens1", poseSet: "0198-7" },
   { page: "targets" },
   { page: "target", spec: "chessboard:9x6:25mm" },
+  { page: "board", board: "BOARD 1/2", shape: "" },
+  { page: "board", board: "BOARD-1", shape: "3" },
   { page: "poseSet", id: "0198-7", with: "" },
   { page: "poseSet", id: "0198-7", with: "0198-8" },
   { page: "yield", sku: "", station: "" },

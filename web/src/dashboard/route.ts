@@ -13,6 +13,8 @@ export type Route =
   | { page: "sku"; code: string; poseSet: string }
   | { page: "targets" }
   | { page: "target"; spec: string }
+  /** `board`: serial or id; `shape`: version of the shape on show, or nothing. */
+  | { page: "board"; board: string; shape: string }
   | { page: "yield"; sku: string; station: string };
 
 export function parseRoute(hash: string): Route {
@@ -37,6 +39,7 @@ function listRoute(page: string, query: URLSearchParams): Route | null {
 function oneRoute(page: string, name: string, query: URLSearchParams): Route | null {
   if (page === "runs") return { page: "run", id: name, capture: query.get("capture") ?? "" };
   if (page === "targets") return { page: "target", spec: name };
+  if (page === "boards") return { page: "board", board: name, shape: query.get("shape") ?? "" };
   if (page === "vehicles") return { page: "vehicle", serial: name };
   if (page === "pose-sets") return { page: "poseSet", id: name, with: query.get("with") ?? "" };
   if (page === "skus") return { page: "sku", code: name, poseSet: query.get("pose_set") ?? "" };
@@ -53,6 +56,8 @@ export function addressOf(route: Route): string {
       return `#/vehicles/${encodeURIComponent(route.serial)}`;
     case "target":
       return `#/targets/${encodeURIComponent(route.spec)}`;
+    case "board":
+      return withQuery(`#/boards/${encodeURIComponent(route.board)}`, { shape: route.shape });
     case "poseSet":
       return withQuery(`#/pose-sets/${encodeURIComponent(route.id)}`, { with: route.with });
     case "sku":
@@ -61,9 +66,7 @@ export function addressOf(route: Route): string {
       return withQuery("#/yield", { sku: route.sku, station: route.station });
     case "runs":
       return runsAddress(queryOf(route.filter));
-    case "skus":
-    case "stations":
-    case "targets":
+    default:
       return `#/${route.page}`;
   }
 }

@@ -14,6 +14,7 @@ import { ExtrinsicsPanel } from "./extrinsics_panel";
 import { GatesTable } from "./gates_table";
 import { HistoryPanel } from "./history_panel";
 import { IntrinsicsTable } from "./intrinsics_table";
+import { LaterExtrinsicsPanels } from "./later_extrinsics";
 import { ResidualsPanel } from "./residuals_panel";
 import { ResultFilesPanel } from "./result_files_panel";
 import { residualsOf, type Spot } from "./run_residuals";
@@ -74,6 +75,7 @@ function Run({ run, asked }: { run: RunDetail; asked: string }): JSX.Element {
             <IntrinsicsTable result={result} />
             <ResultFilesPanel run={run} />
             <ExtrinsicsPanel result={result} />
+            <LaterExtrinsicsPanels runId={run.id} />
             <ResidualsPanel
               result={result}
               captures={captures}

@@ -1,12 +1,14 @@
 // One station on the page of stations.
 import { type JSX } from "preact";
-import type { Drift, RunSummary, StationStanding } from "../generated/api";
-import { plain, significant } from "../format/numbers";
+import type { RunSummary, StationStanding } from "../generated/api";
 import { exactly, when } from "../format/times";
 import { standingOf } from "../shell/verdict_mark";
 import { words } from "../words/language";
+import { BoardDrift } from "./board_drift";
 import { addressOf } from "./route";
 import { StandingTag } from "./runs_table";
+import { StationBoard } from "./station_board";
+import { StationFixture } from "./station_fixture";
 import { StationLanguage } from "./station_language";
 import { StationSource } from "./station_source";
 
@@ -30,8 +32,10 @@ export function StationCard({ station }: { station: StationStanding }): JSX.Elem
         {open === null ? <p class="muted">{say.station_idle}</p> : <OpenRun run={open} />}
       </div>
       {station.board_drift !== null && <BoardDrift drift={station.board_drift} />}
+      <StationBoard board={station.board} />
       <StationSource code={code} source={station.source} />
       <StationLanguage code={code} language={station.language} />
+      <StationFixture code={code} fixture={station.fixture} />
       <div class="station-last">
         <span class="muted">{say.station_last}</span>
         {last === null ? <span class="muted">{say.station_no_verdict}</span> : <LastRun run={last} />}
@@ -40,19 +44,6 @@ export function StationCard({ station }: { station: StationStanding }): JSX.Elem
         </a>
       </div>
     </li>
-  );
-}
-
-/** Said before the board goes out of its limit, and when it has. */
-function BoardDrift({ drift }: { drift: Drift }): JSX.Element | null {
-  const say = words.value;
-  if (drift.state === "steady") return null;
-  const isOver = drift.state === "over";
-  const told = isOver ? say.station_board_over : say.station_board_near;
-  return (
-    <p class={`notice ${isOver ? "notice-problem" : "notice-warning"}`}>
-      {told(significant(drift.worst_mm), plain(drift.limit_mm))}
-    </p>
   );
 }
 

@@ -2,6 +2,7 @@
 import { type JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { setStationLanguage } from "../api/client";
+import { isEngineer } from "../api/own_role";
 import type { Language } from "../generated/api";
 import { ProblemNotice } from "../shell/notices";
 import { isLanguage, LANGUAGES, tagOf, words } from "../words/language";
@@ -38,7 +39,7 @@ export function StationLanguage({ code, language }: Props): JSX.Element {
         class="station-change"
         aria-label={say.station_language_of(code)}
         value={shown ?? ""}
-        disabled={change.isBusy}
+        disabled={change.isBusy || !isEngineer.value}
         onChange={(event) => choose(event.currentTarget.value)}
       >
         <option value="">{say.station_language_none}</option>

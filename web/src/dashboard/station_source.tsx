@@ -2,6 +2,7 @@
 import { type JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { setStationSource } from "../api/client";
+import { isEngineer } from "../api/own_role";
 import { RequestFailed, type Problem } from "../api/problem";
 import { ProblemNotice } from "../shell/notices";
 import { words } from "../words/language";
@@ -34,14 +35,16 @@ export function StationSource({ code, source }: Props): JSX.Element {
       ) : (
         <>
           <code class="station-address">{shown}</code>
-          <button
-            type="button"
-            class="station-change"
-            aria-label={`${say.station_source_change}: ${say.station_source_of(code)}`}
-            onClick={() => setEdited(true)}
-          >
-            {say.station_source_change}
-          </button>
+          {isEngineer.value && (
+            <button
+              type="button"
+              class="station-change"
+              aria-label={`${say.station_source_change}: ${say.station_source_of(code)}`}
+              onClick={() => setEdited(true)}
+            >
+              {say.station_source_change}
+            </button>
+          )}
         </>
       )}
     </div>

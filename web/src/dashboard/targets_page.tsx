@@ -72,6 +72,7 @@ function TargetsTable({ targets }: { targets: readonly Target[] }): JSX.Element 
           <tr>
             <th scope="col">{say.col_serial}</th>
             <th scope="col">{say.col_pattern}</th>
+            <th scope="col">{say.station_board_open}</th>
             <th scope="col" class="number wide-only">
               {say.col_created}
             </th>
@@ -87,6 +88,15 @@ function TargetsTable({ targets }: { targets: readonly Target[] }): JSX.Element 
               </th>
               <td>
                 <code>{target.spec}</code>
+              </td>
+              <td>
+                <a
+                  class="over-row"
+                  href={addressOf({ page: "board", board: target.id, shape: "" })}
+                  aria-label={say.station_board_open_of(target.serial ?? target.spec)}
+                >
+                  {say.station_board_open}
+                </a>
               </td>
               <td class="number wide-only">{when(target.created_at)}</td>
             </tr>

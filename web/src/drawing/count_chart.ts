@@ -11,6 +11,7 @@ import {
   type Quantity,
 } from "./count_curve";
 import type { Colours } from "./drawing";
+import { plotAxis } from "./plot_axis";
 
 export interface CountChart {
   curves: readonly Curve[];
@@ -48,13 +49,7 @@ export function countOptions(
 ): uPlot.Options {
   const [, ...columns] = columnsOf(chart.curves);
   const range = rangeOf(columns.flat(), chart.required);
-  const font = `11px ${getComputedStyle(document.body).fontFamily}`;
-  const axis = {
-    stroke: colours("plot-axis"),
-    grid: { stroke: colours("plot-grid"), width: 1 },
-    ticks: { stroke: colours("plot-grid"), width: 1, size: 4 },
-    font,
-  };
+  const axis = plotAxis(colours);
   return {
     ...size,
     padding: [10, LABEL_ROOM_PX[chart.curves.length > 1 ? 1 : 0], 0, 0],
@@ -63,7 +58,7 @@ export function countOptions(
     // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment -- uPlot's enum has no value at run time
     scales: { x: { time: false }, y: { distr: POWERS, range } },
     axes: [
-      { ...axis, label: chart.words.axis, incrs: COUNT_STEPS, labelFont: font, labelSize: 18, size: 28 },
+      { ...axis, label: chart.words.axis, incrs: COUNT_STEPS, labelFont: axis.font, labelSize: 18, size: 28 },
       {
         ...axis,
         size: 64,

@@ -13,8 +13,8 @@ export interface HeatScene {
   end: number;
   /** How a value is written into the map. */
   write: (value: number) => string;
-  workingZone: Zone;
-  validRegion: Zone;
+  workingZone?: Zone;
+  validRegion?: Zone;
 }
 
 /** Room that a number in the map takes, canvas px. */
@@ -31,8 +31,8 @@ export function drawHeatMap(
   const stops = heatStops(colours);
   const colourOf = (value: number): Rgb => mixed(stops, value / scene.end);
   drawCells(context, scene, at, colourOf, colours);
-  drawZone(context, toCanvasZone(scene.validRegion, at), [2, 4]);
-  drawZone(context, toCanvasZone(scene.workingZone, at), [9, 5]);
+  if (scene.validRegion !== undefined) drawZone(context, toCanvasZone(scene.validRegion, at), [2, 4]);
+  if (scene.workingZone !== undefined) drawZone(context, toCanvasZone(scene.workingZone, at), [9, 5]);
   drawNumbers(context, size, scene, at, colourOf);
 }
 

@@ -2,6 +2,7 @@
 import type uPlot from "uplot";
 import type { Colours } from "./drawing";
 import { historyRange, type HistoryPoint } from "./history_points";
+import { plotAxis } from "./plot_axis";
 
 export interface HistoryChart {
   points: readonly HistoryPoint[];
@@ -9,6 +10,8 @@ export interface HistoryChart {
   /** What the axis says of the run of an index. */
   name: (index: number) => string;
   onPoint: (index: number | null) => void;
+  /** A value that they should stay below: a line. */
+  limit?: number;
 }
 
 const MARK_PX = 5.5;
@@ -21,20 +24,17 @@ export function historyOptions(
   size: { width: number; height: number },
   colours: Colours,
 ): uPlot.Options {
-  const font = `11px ${getComputedStyle(document.body).fontFamily}`;
-  const axis = {
-    stroke: colours("plot-axis"),
-    grid: { stroke: colours("plot-grid"), width: 1 },
-    ticks: { stroke: colours("plot-grid"), width: 1, size: 4 },
-    font,
-  };
+  const axis = plotAxis(colours);
   const last = chart.points.length - 1;
   return {
     ...size,
     padding: [8, 12, 0, 0],
     legend: { show: false },
     cursor: { y: false, drag: { x: false, y: false, setScale: false }, points: { show: false } },
-    scales: { x: { time: false, range: [-0.5, last + 0.5] }, y: { range: historyRange(chart.points) } },
+    scales: {
+      x: { time: false, range: [-0.5, last + 0.5] },
+      y: { range: historyRange(chart.points, limitRange(chart.limit)) },
+    },
     axes: [
       {
         ...axis,
@@ -49,14 +49,35 @@ export function historyOptions(
     ],
     series: [{}, { paths: () => null, points: { show: false } }],
     hooks: {
-      draw: [(plot) => drawPoints(plot, chart, colours)],
+      draw: [(plot) => drawLimit(plot, chart.limit, colours), (plot) => drawPoints(plot, chart, colours)],
       setCursor: [(plot) => chart.onPoint(plot.cursor.idx ?? null)],
     },
   };
 }
 
+/** A limit is seen with the zero that it is counted from. */
+function limitRange(limit: number | undefined): number[] {
+  return limit === undefined ? [] : [0, limit];
+}
+
 export function historyData(points: readonly HistoryPoint[]): uPlot.AlignedData {
   return [points.map((_, i) => i), points.map(({ value }) => value)];
+}
+
+function drawLimit(plot: uPlot, limit: number | undefined, colours: Colours): void {
+  if (limit === undefined) return;
+  const { ctx: context } = plot;
+  const density = window.devicePixelRatio;
+  const y = plot.valToPos(limit, "y", true);
+  context.save();
+  context.strokeStyle = colours("fail");
+  context.lineWidth = 1.5 * density;
+  context.setLineDash([6 * density, 4 * density]);
+  context.beginPath();
+  context.moveTo(plot.bbox.left, y);
+  context.lineTo(plot.bbox.left + plot.bbox.width, y);
+  context.stroke();
+  context.restore();
 }
 
 /** uPlot's canvas is in device pixels. */

@@ -17,6 +17,12 @@ describe("the range of a history", () => {
     expect(high - low).toBeLessThan(10);
   });
 
+  it("holds what is to be shown too", () => {
+    const [low, high] = historyRange([point(0.04, null), point(0.06, null)], [0, 0.1]);
+    expect(low).toBeCloseTo(-0.012);
+    expect(high).toBeCloseTo(0.112);
+  });
+
   it("has a span where there is one value without a bar", () => {
     const [low, high] = historyRange([point(1350, null)]);
     expect(low).toBeLessThan(1350);

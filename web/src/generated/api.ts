@@ -177,6 +177,9 @@ export interface BoardShapeDetail {
   certified_by: string | null;
   retired_at: string | null;
   retired_by: string | null;
+  /** Where the pattern has them, x y. */
+  corners_mm: [number, number][];
+  /** From there; z points away from who looks at the board. */
   deviations_mm: [number, number, number][];
   sd_mm: [number, number, number][];
   run_ids: string[];
@@ -416,6 +419,34 @@ export type JsonValue = unknown;
 /** What the pages speak, by ISO 639-1; their words are in `web/src/words`. */
 export type Language = "en" | "de" | "zh";
 
+/** Where the camera of a finished run is in the vehicle, measured after the run. */
+export interface LaterExtrinsics {
+  id: string;
+  /** Whose intrinsics were used. */
+  run_id: string;
+  serial: string;
+  /** Code of the station whose fixed target the pictures show. */
+  station: string;
+  /** Of the gate `extrinsics` alone; the run keeps its own verdict. */
+  verdict: Verdict;
+  extrinsics: Extrinsics;
+  gates: Measurement[];
+  pictures: LaterPicture[];
+  versions: Record<string, string>;
+  created_at: string;
+  created_by: string;
+}
+
+/** A picture of the fixed target. */
+export interface LaterPicture {
+  id: string;
+  /** From 1, in the order in which they were sent. */
+  number: number;
+  file_name: string;
+  sha256: string;
+  image_url: string;
+}
+
 /** From how many of the board's last runs to learn. */
 export interface LearnShape {
   runs?: number;
@@ -544,6 +575,13 @@ export interface NewTarget {
 /** How a run ended. The verdict on the camera is another thing: only a completed run has one. */
 export type Outcome = "COMPLETED" | "ERROR" | "ABORTED" | "TIMEOUT";
 
+/** The key that asks: whose it is, and what it may do. */
+export interface OwnKey {
+  id: string;
+  name: string;
+  role: Role;
+}
+
 export interface PageApiKey {
   items: ApiKey[];
   /** Give it as `cursor` to go on; null: this was the last part. */
@@ -552,6 +590,12 @@ export interface PageApiKey {
 
 export interface PageBoardShape {
   items: BoardShape[];
+  /** Give it as `cursor` to go on; null: this was the last part. */
+  next_cursor: string | null;
+}
+
+export interface PageLaterExtrinsics {
+  items: LaterExtrinsics[];
   /** Give it as `cursor` to go on; null: this was the last part. */
   next_cursor: string | null;
 }
@@ -1260,13 +1304,17 @@ export interface StationChange {
   fixture?: FixtureDocument | null;
 }
 
-/** A station with its newest open run, its newest finished one, and how its board has drifted. */
+/** A station with its newest open run, its newest finished one, its board and how that has drifted. */
 export interface StationStanding {
   code: string;
   name: string;
   /** Where frames come from; name, password and query of an address are shown as `***`. */
   source: string;
   language: Language | null;
+  /** Its fixed target in the vehicle frame, if any. */
+  fixture: FixtureDocument | null;
+  /** The board that stands there, with its certified shape. */
+  board: TargetDetail | null;
   open_run: RunSummary | null;
   last_run: RunSummary | null;
   /** Of the board's newest shape from the certified one; null: none was learnt since. */
@@ -1351,6 +1399,7 @@ export type Verdict = "PASS" | "MARGINAL" | "FAIL";
 
 /** What the solve says about one capture. */
 export interface ViewResult {
+  /** Of the capture; of extrinsics that were measured after the run, of the picture. */
   capture_id: string;
   name: string;
   rms_px: number;

@@ -33,10 +33,14 @@ export interface BoardSeen {
   angles: PoseAngles | null;
 }
 
-/** Inner corners of the board; corners come row by row, `columns` in a row. */
+/** Corners of the board, or dots of a grid of circles; they come row by row, `columns` in a row. */
 export interface BoardSize {
   columns: number;
   rows: number;
+  /**
+   * Diameter of a dot in steps of a grid of circles; every other row is shifted by a step. Null for a board of squares.
+   */
+  dot_steps: number | null;
 }
 
 /** How the camera that the service reads keeps up, for engineers. */

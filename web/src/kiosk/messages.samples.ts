@@ -49,7 +49,7 @@ export function run(more: Partial<Run>): Run {
     revision: 1,
     purpose: "simulated",
     image_size: [1280, 800],
-    board: { columns: 9, rows: 6 },
+    board: { columns: 9, rows: 6, dot_steps: null },
     poses: [pose(0), pose(1), pose(2)],
     captured: [],
     pose_index: 0,

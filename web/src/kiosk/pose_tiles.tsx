@@ -1,5 +1,6 @@
 // All poses of the run as small pictures of their outlines: taken, asked for now, to come.
 import { type JSX } from "preact";
+import { useEffect, useRef } from "preact/hooks";
 import type { Run, WantedPose } from "../generated/protocol";
 import { words } from "../words/language";
 
@@ -56,8 +57,14 @@ function Tile({ pose, number, imageSize, isTaken, isNow, isMirrored, onRetake }:
         ? say.guide_pose_now(number)
         : say.guide_pose(number);
   const kind = isTaken ? "taken" : isNow ? "now" : "open";
+  const item = useRef<HTMLLIElement>(null);
+
+  // Of many poses not all have room: the one that is asked for is always seen.
+  useEffect(() => {
+    if (isNow) item.current?.scrollIntoView({ block: "nearest" });
+  }, [isNow]);
   return (
-    <li>
+    <li ref={item}>
       <button
         type="button"
         class={`tile tile-${kind}`}

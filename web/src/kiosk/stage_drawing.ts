@@ -53,7 +53,7 @@ function drawPicture(context: CanvasRenderingContext2D, picture: StagePicture, v
 }
 
 function drawScene(pen: Pen, scene: StageScene): void {
-  drawSquares(pen, scene);
+  drawCells(pen, scene);
   drawBoards(pen, scene);
   if (scene.axis !== null) drawAxis(pen, scene.axis);
   for (const arrow of scene.arrows) drawArrow(pen, arrow);
@@ -66,7 +66,7 @@ function drawBoards(pen: Pen, { seen, wanted, isMatch, isUpsideDown }: StageScen
   if (seen !== null) drawSeen(pen, seen, seenColour);
   if (wanted !== null)
     drawWanted(pen, wanted, pen.colours(isMatch ? "guide-good" : "guide-wanted"), isUpsideDown);
-  if (seen !== null) drawFirstSquare(pen, seen, seenColour, isUpsideDown);
+  if (seen !== null) drawFirstCell(pen, seen, seenColour, isUpsideDown);
 }
 
 function shapeOf(pen: Pen, points: readonly Point[]): Path2D {
@@ -93,11 +93,11 @@ function stroke(pen: Pen, path: Path2D, width: number, colour: string): void {
   context.stroke(path);
 }
 
-function drawSquares(pen: Pen, scene: StageScene): void {
-  if (scene.squaresAlpha <= 0) return;
-  pen.context.globalAlpha = 0.42 * scene.squaresAlpha;
+function drawCells(pen: Pen, scene: StageScene): void {
+  if (scene.cellsAlpha <= 0) return;
+  pen.context.globalAlpha = 0.42 * scene.cellsAlpha;
   pen.context.fillStyle = pen.colours(scene.isMatch ? "guide-good" : "guide-wanted");
-  for (const square of scene.squares) pen.context.fill(shapeOf(pen, square));
+  for (const cell of scene.cells) pen.context.fill(shapeOf(pen, cell));
   pen.context.globalAlpha = 1;
 }
 
@@ -113,7 +113,7 @@ function drawWanted(pen: Pen, wanted: Outline, colour: string, isUrgent: boolean
   stroke(pen, circle(pen.at(wanted.first), (isUrgent ? 24 : 13) * pen.unit), isUrgent ? 6 : 4, colour);
 }
 
-function drawFirstSquare(pen: Pen, seen: Outline, colour: string, isUrgent: boolean): void {
+function drawFirstCell(pen: Pen, seen: Outline, colour: string, isUrgent: boolean): void {
   if (seen.first === null) return;
   const dot = circle(pen.at(seen.first), (isUrgent ? 16 : 9) * pen.unit);
   stroke(pen, dot, 2, pen.colours("mark-halo"));

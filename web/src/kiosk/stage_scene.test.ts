@@ -3,7 +3,7 @@ import type { State } from "../generated/protocol";
 import { live, run } from "./messages.samples";
 import { sceneOf } from "./stage_scene";
 
-const BOARD = { columns: 3, rows: 3 };
+const BOARD = { columns: 3, rows: 3, dot_steps: null };
 const RUN = run({ board: BOARD });
 
 function grid(left: number, top: number): [number, number][] {
@@ -40,19 +40,19 @@ describe("the scene over the picture", () => {
   });
 
   it("shows the wanted squares strongly from afar and not at all when the board is there", () => {
-    expect(sceneOf(RUN, stateAt(100, {})).squaresAlpha).toBe(1);
-    expect(sceneOf(RUN, stateAt(200, {})).squaresAlpha).toBe(0);
-    const near = sceneOf(RUN, stateAt(190, {})).squaresAlpha;
+    expect(sceneOf(RUN, stateAt(100, {})).cellsAlpha).toBe(1);
+    expect(sceneOf(RUN, stateAt(200, {})).cellsAlpha).toBe(0);
+    const near = sceneOf(RUN, stateAt(190, {})).cellsAlpha;
     expect(near).toBeGreaterThan(0);
     expect(near).toBeLessThan(1);
   });
 
   it("fills light squares only: those beside the dark one at corner 0", () => {
-    const { squares } = sceneOf(RUN, stateAt(100, {}));
+    const { cells } = sceneOf(RUN, stateAt(100, {}));
 
-    expect(squares).toHaveLength(2);
-    expect(squares[0]?.[0]).toEqual({ x: 220, y: 100 });
-    expect(squares[1]?.[0]).toEqual({ x: 200, y: 120 });
+    expect(cells).toHaveLength(2);
+    expect(cells[0]?.[0]).toEqual({ x: 220, y: 100 });
+    expect(cells[1]?.[0]).toEqual({ x: 200, y: 120 });
   });
 
   it("marks the first square of both boards, by which a board turned round is known", () => {
@@ -67,7 +67,7 @@ describe("the scene over the picture", () => {
     const hints = [{ code: "show-whole-board", amount: 1 } as const];
     const scene = sceneOf(RUN, stateAt(100, { board: "partial", seen: null, hints }));
 
-    expect([scene.seen, scene.arrows, scene.squaresAlpha]).toEqual([null, [], 1]);
+    expect([scene.seen, scene.arrows, scene.cellsAlpha]).toEqual([null, [], 1]);
     expect(scene.wanted?.corners).toHaveLength(4);
   });
 

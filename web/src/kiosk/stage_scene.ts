@@ -2,14 +2,15 @@
 import type { Run, State } from "../generated/protocol";
 import type { Point } from "../drawing/viewport";
 import { centreOf, cornerArrows, distance, keystoneArrows, turningAxis, type Arrow } from "./arrows";
+import { cellsOf, firstCell } from "./board_cells";
 import type { HintCode } from "./mirror";
 
 export interface StageScene {
   wanted: Outline | null;
   seen: Outline | null;
-  /** Light squares of the wanted board, and how strongly they show: they fade as the board comes near. */
-  squares: Point[][];
-  squaresAlpha: number;
+  /** What is filled of the wanted board, and how strongly it shows: it fades as the board comes near. */
+  cells: Point[][];
+  cellsAlpha: number;
   arrows: Arrow[];
   axis: Arrow | null;
   /** The board must be turned round: its first corner matters more than anything. */
@@ -22,16 +23,16 @@ export interface StageScene {
 
 export interface Outline {
   corners: Point[];
-  /** Middle of the square at corner 0, which tells the board's two orientations apart. */
+  /** Middle of the square at corner 0, or the first dot: it tells the board's two orientations apart. */
   first: Point | null;
   centre: Point;
 }
 
 type Pair = [number, number];
 
-/** Corner distance, as a share of the board's diagonal, at which squares are gone, and from which they are full. */
-const SQUARES_GONE = 0.05;
-const SQUARES_FULL = 0.35;
+/** Corner distance, as a share of the board's diagonal, at which cells are gone, and from which they are full. */
+const CELLS_GONE = 0.05;
+const CELLS_FULL = 0.35;
 const KEYSTONE_SHARE = 0.1;
 
 function point([x, y]: Pair): Point {
@@ -46,8 +47,8 @@ export function sceneOf(run: Pick<Run, "board" | "image_size">, live: State): St
   return {
     wanted,
     seen,
-    squares: ghost === null ? [] : lightSquares(ghost.corners.map(point), run.board),
-    squaresAlpha: wanted === null ? 0 : squaresAlpha(wanted, seen),
+    cells: ghost === null ? [] : cellsOf(ghost.corners.map(point), run.board),
+    cellsAlpha: wanted === null ? 0 : cellsAlpha(wanted, seen),
     ...wayOf(code, seen, wanted, KEYSTONE_SHARE * run.image_size[1]),
     isUpsideDown: code === "turn-upside-down",
     ...arrivalOf(live),
@@ -76,33 +77,15 @@ function arrivalOf(live: State): Pick<StageScene, "isMatch" | "dwell"> {
 
 function outline(outer: readonly Pair[], corners: readonly Pair[], board: Run["board"]): Outline {
   const points = outer.map(point);
-  const first = firstSquare(corners.map(point), board);
+  const first = firstCell(corners.map(point), board);
   return { corners: points, first, centre: centreOf(points) };
 }
 
-function firstSquare(corners: readonly Point[], { columns }: Run["board"]): Point | null {
-  const square = [0, 1, columns, columns + 1].flatMap((i) => corners[i] ?? []);
-  return square.length === 4 ? centreOf(square) : null;
-}
-
-/** The square inside of corner 0 is dark, as the one outside of it, so light ones have an odd sum of places. */
-function lightSquares(corners: readonly Point[], { columns, rows }: Run["board"]): Point[][] {
-  const squares: Point[][] = [];
-  for (let row = 0; row + 1 < rows; row += 1) {
-    for (let column = 0; column + 1 < columns; column += 1) {
-      if ((row + column) % 2 === 0) continue;
-      const i = row * columns + column;
-      squares.push([i, i + 1, i + columns + 1, i + columns].flatMap((at) => corners[at] ?? []));
-    }
-  }
-  return squares;
-}
-
-function squaresAlpha(wanted: Outline, seen: Outline | null): number {
+function cellsAlpha(wanted: Outline, seen: Outline | null): number {
   if (seen === null) return 1;
   const [first, , third] = wanted.corners;
   if (first === undefined || third === undefined) return 0;
   const away = wanted.corners.map((corner, i) => distance(corner, seen.corners[i] ?? corner));
   const share = away.reduce((a, b) => a + b, 0) / away.length / distance(first, third);
-  return Math.min(1, Math.max(0, (share - SQUARES_GONE) / (SQUARES_FULL - SQUARES_GONE)));
+  return Math.min(1, Math.max(0, (share - CELLS_GONE) / (CELLS_FULL - CELLS_GONE)));
 }

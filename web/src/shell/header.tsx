@@ -52,7 +52,7 @@ function linksOf(say: Words): Link[] {
     { name: say.nav_stations, href: "#/stations", pages: ["stations"] },
     { name: say.nav_runs, href: "#/runs", pages: ["runs", "run", "vehicle", "compare"] },
     { name: say.nav_skus, href: "#/skus", pages: ["skus", "sku", "poseSet"] },
-    { name: say.nav_targets, href: "#/targets", pages: ["targets", "target"] },
+    { name: say.nav_targets, href: "#/targets", pages: ["targets", "target", "board"] },
     { name: say.nav_yield, href: "#/yield", pages: ["yield"] },
   ];
 }

@@ -1,4 +1,5 @@
 // Every text of the pages in German.
+import { deBoards } from "./de_boards";
 import { deKiosk } from "./de_kiosk";
 import { deFiles } from "./de_files";
 import { deHelp } from "./de_help";
@@ -9,6 +10,7 @@ import { deTargets } from "./de_targets";
 import type { Words } from "./en";
 
 export const de: Words = {
+  ...deBoards,
   ...deKiosk,
   ...deFiles,
   ...deHelp,
@@ -219,9 +221,9 @@ export const de: Words = {
   station_captures: "Aufnahmen",
   station_since: "seit",
   station_board_over: (moved: string, limit: string) =>
-    `Das Target hat sich um ${moved} mm gegenüber seiner zertifizierten Form verändert; ${limit} mm sind erlaubt. Die Platte prüfen, dann die neue Form zertifizieren oder die Platte ersetzen.`,
+    `Die Tafel hat sich um ${moved} mm gegenüber ihrer zertifizierten Form verändert; ${limit} mm sind erlaubt. Die Platte prüfen, dann die neue Form zertifizieren oder die Platte ersetzen.`,
   station_board_near: (moved: string, limit: string) =>
-    `Das Target hat sich um ${moved} mm gegenüber seiner zertifizierten Form verändert, nahe der Grenze von ${limit} mm. Die Platte bald prüfen.`,
+    `Die Tafel hat sich um ${moved} mm gegenüber ihrer zertifizierten Form verändert, nahe der Grenze von ${limit} mm. Die Platte bald prüfen.`,
   station_last: "Letztes Urteil",
   station_no_verdict: "noch keines",
   station_runs: "Alle Läufe",

@@ -192,9 +192,6 @@ export const deKiosk: KioskWords = {
   told_revision_retired: "Der Kameratyp wurde inzwischen geändert",
   told_revision_retired_do:
     "Der Lauf geht weiter, wie er begonnen wurde. Für den neuen Stand abbrechen und das Fahrzeug neu scannen.",
-  told_target_not_guided: "Zu dieser Art Tafel kann nicht geführt werden",
-  told_target_not_guided_do:
-    "Einen Ingenieur rufen: Die Bilder werden auf anderem Weg hochgeladen, oder der Kameratyp braucht eine Tafel mit Feldern oder Marken.",
   told_serial_invalid: "Das ist keine Seriennummer",
   told_serial_invalid_do: "Etikett noch einmal scannen; erlaubt sind Buchstaben, Ziffern und - _ . : /.",
   told_disk_full: "Die Festplatte des Servers ist voll",

@@ -1,4 +1,5 @@
 // Every text of the pages in English. The other languages have the same keys; the compiler sees to it.
+import { enBoards } from "./en_boards";
 import { enKiosk } from "./en_kiosk";
 import { enFiles } from "./en_files";
 import { enHelp } from "./en_help";
@@ -8,6 +9,7 @@ import { enReview } from "./en_review";
 import { enTargets } from "./en_targets";
 
 export const en = {
+  ...enBoards,
   ...enKiosk,
   ...enFiles,
   ...enHelp,

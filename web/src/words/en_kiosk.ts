@@ -185,9 +185,6 @@ export const enKiosk = {
   told_revision_retired: "The camera type was revised meanwhile",
   told_revision_retired_do:
     "The run goes on as it was opened. To use what is new, abort it and scan the vehicle again.",
-  told_target_not_guided: "This kind of board cannot be guided",
-  told_target_not_guided_do:
-    "Call an engineer: the pictures are uploaded by other means, or the camera type needs a board of squares or tags.",
   told_serial_invalid: "This is no serial",
   told_serial_invalid_do: "Scan the label again; letters, digits and - _ . : / are allowed.",
   told_disk_full: "The server's disk is full",

@@ -2,6 +2,7 @@
 import type { Words } from "./en";
 import { zhFiles } from "./zh_files";
 import { zhHelp } from "./zh_help";
+import { zhBoards } from "./zh_boards";
 import { zhKiosk } from "./zh_kiosk";
 import { zhPractice } from "./zh_practice";
 import { zhResults } from "./zh_results";
@@ -11,6 +12,7 @@ import { zhTargets } from "./zh_targets";
 export const zh: Words = {
   ...zhFiles,
   ...zhHelp,
+  ...zhBoards,
   ...zhKiosk,
   ...zhPractice,
   ...zhResults,

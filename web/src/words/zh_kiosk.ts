@@ -176,8 +176,6 @@ export const zhKiosk: KioskWords = {
   told_wrong_image_size_do: "检查本次标定的相机型号，或请工程师设置相机的图像尺寸。",
   told_revision_retired: "该相机型号已有新版本",
   told_revision_retired_do: "本次标定按原版本继续。要使用新版本，请中止后重新扫描车辆。",
-  told_target_not_guided: "无法引导这种标定板",
-  told_target_not_guided_do: "请联系工程师：用其他方式上传图像，或为该相机型号改用带方格或标签的标定板。",
   told_serial_invalid: "这不是序列号",
   told_serial_invalid_do: "请重新扫描标签；只允许字母、数字和 - _ . : /。",
   told_disk_full: "服务器磁盘已满",

@@ -1,0 +1,98 @@
+// Every text in Chinese (simplified) about a station's boards with their shapes, its fixture and what that tells later.
+import type { enBoards } from "./en_boards";
+
+export const zhBoards: typeof enBoards = {
+  station_board: "标定板",
+  station_board_none: "未指定",
+  station_board_flat: "按平面处理",
+  station_board_certified: (version, when, runs) => `形状 ${version}，认证于 ${when}，来自 ${runs} 次标定`,
+  station_board_open: "形状",
+  station_board_open_of: (board) => `标定板 ${board} 的形状`,
+
+  board_title: (board) => `标定板 ${board}`,
+  board_all: "全部标定板",
+  board_in_use: (version, when) => `此标定板各工位的求解使用形状 ${version}，认证于 ${when}。`,
+  board_flat: "求解时把此标定板当作平面。实际的板都不是平面：认证一个学得的形状，此后的标定就用它求解。",
+  board_steady: (moved, limit) => `最新形状与已认证形状相差 ${moved} mm；允许 ${limit} mm。`,
+
+  shapes_title: "形状",
+  shapes_note: "最新的在前；选择一个查看",
+  shapes_none: "尚未学得形状。",
+  shapes_caption: "此标定板的形状，最新的在前",
+  shape_version: (version) => `形状 ${version}`,
+  shape_col_version: "形状",
+  shape_col_state: "状态",
+  shape_col_learnt: "学习时间",
+  shape_col_runs: "标定次数",
+  shape_col_bend: "弯曲",
+  shape_col_certainty: "角点 ±",
+  shape_col_drift: "移动",
+  shape_draft: "已学得",
+  shape_certified: "已认证",
+  shape_retired: "已停用",
+  shape_since: (when, who) => `自 ${when}，由 ${who}`,
+  shape_drift_steady: "稳定",
+  shape_drift_near: "接近限值",
+  shape_drift_over: "超出限值",
+
+  shape_heights: "板面高度",
+  shape_heights_note: "朝向相机，相对最低角点",
+  shape_corner: (corner, height, sd) => `角点 ${corner}：${height} ± ${sd} µm`,
+  shape_bend: "弯曲，峰峰值",
+  shape_in_plane: "平面内最大偏移",
+  shape_corner_sd: "角点已知精度（1 sd）",
+  shape_noise: "角点噪声，平面 → 此形状",
+  shape_camera_sd: "所有相机共有（1 sd）",
+  shape_camera_sd_note: "焦距 / 主点 / 映射",
+  shape_by: "学习者",
+  shape_certified_fact: "认证",
+  shape_retired_fact: "停用",
+
+  shape_certify: "认证",
+  shape_certify_ask: "认证此形状？",
+  shape_certify_detail: (board) =>
+    `从现在起，${board} 各工位的标定用它求解，之前的形状停用。以前的结果保持不变。`,
+  shape_retire: "停用",
+  shape_retire_ask: "停用此形状？",
+  shape_retire_certified: (board) =>
+    `在认证另一个形状之前，${board} 各工位的标定又把标定板当作平面。以前的结果保持不变。停用的形状不能恢复。`,
+  shape_retire_draft: "之后它不能再被认证。停用的形状不能恢复。",
+  shape_leave: "保持原样",
+
+  learn_title: "学习形状",
+  learn_detail:
+    "在后台从使用此标定板的工位上最近完成的标定中学习。学得的形状认证后才使用；标定次数越多，角点越准。",
+  learn_runs: "使用多少次标定",
+  learn_start: "学习",
+  learn_running: (percent) => `正在学习形状：${percent}`,
+
+  drift_title: "漂移",
+  drift_note: "移动最大的角点，mm，相对当时已认证的形状",
+  drift_key: "● 稳定 ▲ 接近 ◆ 超出 · ┄ 限值",
+  drift_chart: (count) => `${count} 个学得形状的角点最大移动；数值见形状表`,
+  drift_read: (version, when, moved, focal) => `形状 ${version}，${when}：${moved} mm，焦距偏差 ${focal} px`,
+
+  fixture: "固定标定板",
+  fixture_of: (code) => `${code} 的固定标定板`,
+  fixture_none: "无",
+  fixture_place: (position) => `位于 ${position} mm`,
+  fixture_set: "设置",
+  fixture_hint:
+    "车辆在工位时，固定标定板在车辆坐标系中的位置（T_vehicle_board）。对从现在起拍摄的图像有效；结果保留其生成时所用的值。",
+  fixture_target: "图案",
+  fixture_target_hint: "例如 chessboard:9x6:40mm",
+  fixture_position: "角点 0 的位置，mm",
+  fixture_position_axis: (axis) => `位置 ${axis}，mm`,
+  fixture_rotation: "旋转向量，°",
+  fixture_rotation_axis: (axis) => `旋转 ${axis}，°`,
+  fixture_certainty: "已知精度（1 sd）",
+  fixture_translation_sd: "位置 ±，mm",
+  fixture_rotation_sd: "旋转 ±，mdeg",
+  fixture_remove: "移除",
+  fixture_remove_ask: "移除固定标定板？",
+  fixture_remove_detail: (code) =>
+    `从现在起，${code} 拒收固定标定板的图像，那里的新标定不再给出相机在车辆中的位置。以前的结果保持不变。`,
+
+  later_extrinsics_title: "在车辆中的位姿（标定之后）",
+  later_extrinsics_when: (when, station) => `${when}，工位 ${station}`,
+};
