@@ -48,15 +48,15 @@ def revision() -> Revision:
 
 
 @cache
-def pose_set() -> PoseSet:
-    """The poses of the SKU."""
-    sku = revision()
+def pose_set(count: int = SKU["pose_count"]) -> PoseSet:
+    """The poses of the SKU, or so many."""
+    sku = SkuDocument.model_validate({**SKU, "pose_count": count}).to_revision()
     return plan_for(sku, PlanRequest(seed=1, candidates=300))
 
 
-def poses_json() -> list[JsonObject]:
-    """The poses as they are imported."""
-    return [{"rvec": list(pose.rvec), "tvec": list(pose.tvec)} for pose in pose_set().poses]
+def poses_json(count: int = SKU["pose_count"]) -> list[JsonObject]:
+    """The poses, or so many, as they are imported."""
+    return [{"rvec": list(pose.rvec), "tvec": list(pose.tvec)} for pose in pose_set(count).poses]
 
 
 @cache

@@ -20,22 +20,25 @@ IMPOSSIBLE = {
     # More poses would not help either.
     "extra_poses": 0,
 }
+# Its run is aborted in the middle: with so many poses it is not over before, however slow the browser is.
+LONG = {**SKU, "code": "long", "pose_count": 30}
 A_RUN_MS = 150_000
 
 RunJson = dict[str, Any]
 
 
 def prepare_stations(serving: Serving, poses: int = POSES, limits: Mapping[str, float] | None = None) -> None:
-    """Publish a camera that passes and one that fails, and register stations for both.
+    """Publish a camera that passes, one that fails and one that takes long, and register stations for all.
 
     limits: besides those of the cameras, for runs of so few poses that the usual ones would not pass.
     """
     customer = Customer.of(serving.url, serving.key)
     with customer.http:
-        for sku in (SKU, IMPOSSIBLE):
+        some, many = poses_json()[:poses], poses_json(LONG["pose_count"])
+        for sku, asked_for in ((SKU, some), (IMPOSSIBLE, some), (LONG, many)):
             customer.describe_sku({**sku, "limits": {**(limits or {}), **sku["limits"]}})
             asked = customer.ask(
-                "POST", f"/skus/{sku['code']}/revisions/1/pose-sets", json={"poses": poses_json()[:poses]}
+                "POST", f"/skus/{sku['code']}/revisions/1/pose-sets", json={"poses": asked_for}
             )
             customer.ask("POST", f"/pose-sets/{asked['pose_set']['id']}/publish")
         for code, source in (("line1", "virtual"), ("line2", "virtual"), ("own", "browser")):
@@ -104,4 +107,17 @@ def scan_label(page: Page, serial: str) -> None:
                     new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));
         }""",
         serial,
+    )
+
+
+def press_while_moving(page: Page, key: str) -> None:
+    """Press a key in the very moment in which the page asks for a movement; soon the hand is there."""
+    page.wait_for_function(
+        """key => {
+            if (!document.querySelector('.strip')?.dataset.hint?.startsWith('move')) return false;
+            (document.activeElement ?? document.body).dispatchEvent(
+                new KeyboardEvent('keydown', { key, bubbles: true, cancelable: true }));
+            return true;
+        }""",
+        arg=key,
     )

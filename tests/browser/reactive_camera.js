@@ -4,12 +4,14 @@
 // pose, no picture and no number of the service. `window.reactive` is set before, by the test:
 //   camera {width, height, fx, fy, cx, cy, k1, k2, p1, p2, k3}, board {columns, rows, square_m},
 //   start {centre, upside_down}, swapped (hints that it reads as the other one), stubborn (it never moves);
-//   later the test may set: paused (no frames come), gone (the camera is unplugged).
+//   later the test may set: paused (no frames come), gone (the camera is unplugged); and it may read lived_s (for
+//   how long the operator acted: on a busy computer less than the clock says).
 // Axes as in the core: x right, y down, z away. Not here: what a run must come to.
 "use strict";
 (() => {
   const { camera, board, start, swapped = {}, stubborn = false } = window.reactive;
   const { width, height } = camera;
+  window.reactive.lived_s = 0;
 
   // --- the lens: for each pixel its ray on the ideal plane, and how the ray changes from pixel to pixel ---
 
@@ -228,7 +230,9 @@
     let before_ms = performance.now();
     const tick = async () => {
       const now_ms = performance.now();
-      live(now_ms / 1000, Math.min(LONGEST_STEP_S, (now_ms - before_ms) / 1000));
+      const dt_s = Math.min(LONGEST_STEP_S, (now_ms - before_ms) / 1000);
+      live(now_ms / 1000, dt_s);
+      window.reactive.lived_s += dt_s;
       before_ms = now_ms;
       if (track.readyState === "ended") return;
       if (window.reactive.gone) {

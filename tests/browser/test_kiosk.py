@@ -12,7 +12,9 @@ from tests.browser.kiosk_station import (
     SPEED,
     open_kiosk,
     prepare_stations,
+    press_while_moving,
     scan,
+    scan_label,
     stored_run,
     taken,
     verdict_of,
@@ -84,8 +86,7 @@ def test_a_camera_that_fails_is_said_to_the_whole_hall_with_what_to_do(
     page.reload()
     expect(verdict_of(page)).to_contain_text("FAIL")
     # Whoever scans at a verdict goes on with the next vehicle, without a button.
-    page.keyboard.type("VIN-KIOSK-0022")
-    page.keyboard.press("Enter")
+    scan_label(page, "VIN-KIOSK-0022")
     expect(page.locator(".whose-serial")).to_have_text("VIN-KIOSK-0022")
     _abort(page)
 
@@ -93,8 +94,10 @@ def test_a_camera_that_fails_is_said_to_the_whole_hall_with_what_to_do(
 def test_keys_alone_are_enough(page: Page, stations: Serving) -> None:
     open_kiosk(page, stations, "line2")
     page.keyboard.press("Tab")
-    expect(page.get_by_role("button", name="strict", exact=True)).to_be_focused()
+    expect(page.get_by_role("button", name="long", exact=True)).to_be_focused()
     page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="strict", exact=True)).to_be_focused()
+    page.keyboard.press("Shift+Tab")
     page.keyboard.press("Enter")
     expect(page.get_by_label("Serial", exact=True)).to_be_focused()
     page.keyboard.type("VIN-KIOSK-0003")
@@ -102,8 +105,7 @@ def test_keys_alone_are_enough(page: Page, stations: Serving) -> None:
     wait_for_captures(page, 2)
     page.keyboard.press("Backspace")
     expect(page.locator(".tile-taken")).to_have_count(1)
-    wait_for_hint(page, lambda code: code.startswith("move"))
-    page.keyboard.press("Space")
+    press_while_moving(page, " ")
     expect(page.locator("[data-problem]")).to_contain_text("Not taken")
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_contain_text("Abort this run?")
@@ -122,7 +124,7 @@ def test_keys_alone_are_enough(page: Page, stations: Serving) -> None:
 
 def test_a_reload_in_mid_run_goes_on_at_the_same_pose(page: Page, stations: Serving) -> None:
     open_kiosk(page, stations)
-    scan(page, "VIN-KIOSK-0004")
+    scan(page, "VIN-KIOSK-0004", sku="long")
     wait_for_captures(page, 2)
     before = taken(page)
     page.reload()
@@ -139,7 +141,7 @@ def test_the_run_outlives_the_service_and_goes_on_by_itself(
     page: Page, stations: Serving, shots: Path
 ) -> None:
     open_kiosk(page, stations)
-    scan(page, "VIN-KIOSK-0005")
+    scan(page, "VIN-KIOSK-0005", sku="long")
     wait_for_captures(page, 1)
     before = taken(page)
     stations.stop()
@@ -157,7 +159,7 @@ def test_the_run_outlives_the_service_and_goes_on_by_itself(
 
 def test_a_mirrored_display_swaps_picture_arrows_and_words(page: Page, stations: Serving) -> None:
     open_kiosk(page, stations)
-    scan(page, "VIN-KIOSK-0006")
+    scan(page, "VIN-KIOSK-0006", sku="long")
     mirror = page.get_by_role("button", name="Mirror")
     sideways = wait_for_hint(page, lambda code: code in {"move-left", "move-right"})
     # One moment, both displays: the frame that is shown stays while the service is not asked.
@@ -188,7 +190,7 @@ def test_german_and_dark_show_the_same(page: Page, stations: Serving, shots: Pat
     page.get_by_label("Seriennummer", exact=True).fill("VIN-KIOSK-0007")
     page.keyboard.press("Enter")
     expect(page.get_by_role("alert")).to_contain_text("Welche Kamera ist es?")
-    page.get_by_role("button", name="tiny", exact=True).click()
+    page.get_by_role("button", name="long", exact=True).click()
     page.keyboard.press("Enter")
     wait_for_hint(page, lambda code: code.startswith(("tilt", "turn")))
 
@@ -206,7 +208,7 @@ def test_a_second_kiosk_on_a_running_run_is_told_who_holds_the_station_and_takes
     page: Page, stations: Serving, shots: Path
 ) -> None:
     open_kiosk(page, stations)
-    scan(page, "VIN-KIOSK-0008")
+    scan(page, "VIN-KIOSK-0008", sku="long")
     second = page.context.new_page()
     second.goto(f"{stations.url}/kiosk?station=line1#key={stations.key}")
     expect(second.get_by_role("alert")).to_contain_text("Another kiosk holds this station", timeout=20_000)
