@@ -190,7 +190,7 @@ class Result(Answer):
     views: list[ViewResult]
     starts: list[Start] = Field(description="Where the solver started from, and what it reached.")
     agreement_px: float | None = Field(
-        description="Largest difference between the starts; null: one of them failed."
+        description="Largest difference between the starts at the corners; null: one of them failed."
     )
     early_finish: EarlyFinish | None = Field(description="Null where every prescribed pose was taken.")
     extrinsics: Extrinsics | None = Field(description="Null without pictures of a fixed target.")

@@ -47,8 +47,8 @@ class CalibrationResult:
     covariance: (p, p) in the order of parameter_names(lens), σ²(JᵀJ)⁻¹ with the fitted σ, zero where fixed.
     poses: `T_cam_board` per view. residuals: detected − projected (n, 2) px per view. equations: those of the
     free parameters at the optimum, view by view.
-    sigma_px: √(Σe²/(2N − free unknowns)). rms_px: √(Σ|e|²/N). agreement_px: the largest difference over the
-    image between the ends of the starts, inf where one of them failed. converged: the optimum is proven and
+    sigma_px: √(Σe²/(2N − free unknowns)). rms_px: √(Σ|e|²/N). agreement_px: the largest difference at the
+    corners between the ends of the starts, inf where one of them failed. converged: the optimum is proven and
     the starts agree.
     """
 
@@ -140,7 +140,7 @@ def _best_result(problem: Problem, ends: Ends, fixed: Collection[str]) -> Calibr
         raise DegenerateViews(
             "No camera of this lens can see the views; check the target and the lens model."
         )
-    best = min(solved, key=lambda fit: fit.equations.cost)
+    best = min(solved, key=lambda fit: float(fit.equations.cost))
     return _result(problem, best, ends, tuple(n for n in parameter_names(problem.lens) if n in fixed))
 
 
@@ -149,7 +149,7 @@ def _result(problem: Problem, best: Fit, ends: Ends, fixed: tuple[str, ...]) -> 
     stack, estimate = problem.stack, best.estimate
     intrinsics = problem.intrinsics(estimate.vector)
     unknowns = len(problem.free) + 6 * len(stack.counts)
-    variance = best.equations.cost / max(stack.measurements - unknowns, 1)
+    variance = float(best.equations.cost) / max(stack.measurements - unknowns, 1)
     pixels = project(intrinsics, estimate.rotations, estimate.translations, stack.object_points)
     errors = stack.image_points - pixels
     return CalibrationResult(
@@ -179,7 +179,7 @@ def _report(problem: Problem, name: str, fit: Fit | None) -> StartReport:
 
 def _rms(problem: Problem, fit: Fit) -> float:
     """Return √(Σ|e|²/N) px of a fit."""
-    return float(np.sqrt(fit.equations.cost / sum(problem.stack.counts)))
+    return float(np.sqrt(float(fit.equations.cost) / sum(problem.stack.counts)))
 
 
 def _cofactor(problem: Problem, fit: Fit) -> Array:

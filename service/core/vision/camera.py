@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.errors import IntrinsicsInvalid
 from service.core.vision import lens_kannala_brandt4, lens_pinhole5, lens_rational8
@@ -115,37 +116,53 @@ def project(intrinsics: Intrinsics, rotation: Array, translation: Array, object_
 def project_with_jacobians(
     lens: str, vector: Array, rotation: Array, translation: Array, object_points: Array
 ) -> tuple[Array, Array, Array]:
-    """Return projections and their derivatives, vectorised over v views; components first in memory.
+    """Return projections and their derivatives, vectorised over leading dimensions.
 
-    lens: model name; vector: (p,) or (v, p) parameters; rotation: (v, 3, 3); translation: (v, 3) m;
-    object_points: (n, 3) or (v, n, 3) m.
-    Returns image points (v, n, 2) px, derivatives by the parameters (v, n, 2, p), and by the pose (v, n, 2,
-    6): a left increment exp(ω) R in rad first, then the translation in m.
+    lens: model name; vector: (p,) or (..., p) parameters; rotation: (..., 3, 3); translation: (..., 3) m;
+    object_points: (n, 3) or (..., n, 3) m. Leading dimensions are broadcast.
+    Returns image points (..., n, 2) px, derivatives by the parameters (..., n, 2, p), and by the pose
+    (..., n, 2, 6): a left increment exp(ω) R in rad first, then the translation in m. In memory the
+    components come first.
     """
-    vector = np.atleast_2d(vector)[:, None, :]
+    if vector.ndim > 1:
+        missing = (1,) * (rotation.ndim - 1 - vector.ndim)
+        vector = vector.reshape(*missing, *vector.shape[:-1], 1, vector.shape[-1])
     turned = turn_points(rotation, object_points)
-    points = turned + translation[:, None, :]
-    focal = vector[..., :2]
+    shape = turned.shape[:-1]
+    first = np.empty((3, *shape))
+    last = (*range(1, first.ndim), 0)
+    points = np.add(turned, translation[..., None, :], out=first.transpose(last))
     image, by_point, by_k = LENSES[lens].project_with_jacobians(points, vector[..., 4:])
-    by_image = focal.transpose(2, 0, 1)[:, None]
-    by_parameters = np.zeros((2, vector.shape[-1], *points.shape[:-1]))
+    fx, fy = vector[..., 0], vector[..., 1]
+    by_parameters = np.zeros((2, vector.shape[-1], *shape))
     by_parameters[0, 0], by_parameters[1, 1] = image[..., 0], image[..., 1]
     by_parameters[0, 2] = by_parameters[1, 3] = 1.0
-    np.multiply(by_k, by_image, out=by_parameters[:, 4:])
-    by_pose = np.empty((2, 6, *points.shape[:-1]))
-    np.multiply(by_point, by_image, out=by_pose[:, 3:])
-    _by_rotation(turned, by_pose[:, 3:], out=by_pose[:, :3])
-    pixels = image * focal + vector[..., 2:4]
-    return pixels, by_parameters.transpose(2, 3, 0, 1), by_pose.transpose(2, 3, 0, 1)
+    by_pose = np.empty((2, 6, *shape))
+    for i, focal in enumerate((fx, fy)):
+        np.multiply(by_k[i], focal, out=by_parameters[i, 4:])
+        np.multiply(by_point[i], focal, out=by_pose[i, 3:])
+    _by_rotation(turned, by_pose)
+    pixels = np.empty((2, *shape))
+    pixels[0], pixels[1] = image[..., 0] * fx + vector[..., 2], image[..., 1] * fy + vector[..., 3]
+    components_last = (*range(2, 2 + len(shape)), 0, 1)
+    return (
+        pixels.transpose(last),
+        by_parameters.transpose(components_last),
+        by_pose.transpose(components_last),
+    )
 
 
-def _by_rotation(turned: Array, by_point: Array, out: Array) -> None:
-    """Write derivatives (2, 3, ...) by a rotation ω of turned points (..., 3): g · (ω × t) = ω · (t × g)."""
-    tx, ty, tz = turned[..., 0], turned[..., 1], turned[..., 2]
-    gx, gy, gz = by_point[:, 0], by_point[:, 1], by_point[:, 2]
-    out[:, 0] = ty * gz - tz * gy
-    out[:, 1] = tz * gx - tx * gz
-    out[:, 2] = tx * gy - ty * gx
+def _by_rotation(turned: Array, by_pose: Array) -> None:
+    """Write derivatives (2, 6, ...) by a rotation ω of turned points (..., 3) before those by a translation.
+
+    With g the latter: g · (ω × t) = ω · (t × g).
+    """
+    t = [np.array(turned[..., i]) for i in range(3)]
+    for of in by_pose:
+        g = of[3:]
+        for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            np.multiply(t[j], g[k], out=of[i, ...])
+            of[i] -= t[k] * g[j]
 
 
 def unproject(intrinsics: Intrinsics, image_points: Array) -> Array:
@@ -167,3 +184,14 @@ def reach_share(intrinsics: Intrinsics, points: Array) -> Array:
     # A point without image must have an infinite share of an infinite reach, too.
     share: Array = lens.radius(points) / min(lens.reach(intrinsics.vector[4:]), LARGEST)
     return share
+
+
+def are_reached(intrinsics: Intrinsics, points: Array) -> NDArray[np.bool_]:
+    """Whether camera-frame points (..., 3) are before the reach of the lens: (...)."""
+    lens, k = LENSES[intrinsics.lens], intrinsics.vector[4:]
+    radius = lens.radius(points)
+    farthest = float(radius.max(initial=0.0))
+    # Mostly all are, which takes less to tell than where the reach is.
+    if farthest < np.inf and lens.reaches(k, farthest):
+        return np.ones(radius.shape, dtype=np.bool_)
+    return np.asarray(radius < min(lens.reach(k), LARGEST))

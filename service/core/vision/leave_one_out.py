@@ -8,11 +8,14 @@ many standard deviations is found all the same. Not here: limits (`service.core.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import parameter_names
 from service.core.vision.normal_equations import Reduced, reduce, unit_scale
 from service.core.vision.transforms import Array
+
+LEAST_EIGENVALUE = 1e-13
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,16 @@ def _steps_without(reduced: Reduced) -> Array:
     scale = unit_scale(total)
     remaining = (total - reduced.information) * np.outer(scale, scale)
     gradient = (reduced.gradient.sum(axis=0) - reduced.gradient) * scale
-    determined = np.linalg.eigvalsh(remaining)[:, 0] > 1e-13
+    determined = _are_above(remaining, LEAST_EIGENVALUE)
     remaining = np.where(determined[:, None, None], remaining, np.eye(len(scale)))
     steps: Array = np.linalg.solve(remaining, gradient[..., None])[..., 0] * scale
     return np.where(determined[:, None], steps, np.nan)
+
+
+def _are_above(matrices: Array, least: float) -> NDArray[np.bool_]:
+    """Whether all eigenvalues of symmetric matrices (v, f, f) are above the least; they usually all are."""
+    try:
+        np.linalg.cholesky(matrices - least * np.eye(matrices.shape[-1]))
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.eigvalsh(matrices)[:, 0] > least)
+    return np.ones(len(matrices), dtype=np.bool_)

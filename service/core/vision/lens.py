@@ -57,3 +57,14 @@ class Lens(Protocol):
     def reach(self, k: Array) -> float:
         """Return the radius up to which the image radius grows; beyond it two directions share a pixel."""
         ...
+
+    def reaches(self, k: Array, radius: float) -> bool:
+        """Whether a finite radius is below the reach, which is told sooner than the reach itself."""
+        ...
+
+    def like_division(self, coefficient: float) -> Array:
+        """Return coefficients (c,) of a lens roughly like the division model, zero where none is like it.
+
+        There a distorted radius m belongs to the ideal radius m/(1 + coefficient m²) (Fitzgibbon 2001).
+        """
+        ...

@@ -8,9 +8,11 @@ import math
 
 import numpy as np
 
+from service.core.vision.polynomial import is_positive_up_to, smallest_positive_root
 from service.core.vision.transforms import Array
 
 HALVINGS = 60
+TURNING = np.array([3.0, 5.0, 7.0, 9.0])
 NEAR_AXIS = 1e-8  # rad; the series about the axis is exact to rounding there
 
 
@@ -70,15 +72,22 @@ class KannalaBrandt4:
     def reach(self, k: Array) -> float:
         """Return the angle, rad, up to which the image radius grows; π where it always does.
 
-        θd′ = 1 + 3 k1 t + 5 k2 t² + 7 k3 t³ + 9 k4 t⁴ with t = θ²; in 1/t its smallest positive root is the
-        largest of a polynomial whose leading coefficient is one.
+        θd′ = 1 + 3 k1 t + 5 k2 t² + 7 k3 t³ + 9 k4 t⁴ with t = θ².
         """
-        companion = np.diag(np.ones(3), -1)
-        companion[0] = -np.array([3.0, 5.0, 7.0, 9.0]) * k
-        roots = np.linalg.eigvals(companion)
-        size = max(1.0, float(np.abs(companion[0]).max()))
-        real = roots.real[np.abs(roots.imag) < 1e-7 * size]  # rounding gives a double root an imaginary part
-        return 1.0 / math.sqrt(max(float(real.max(initial=0.0)), 1.0 / math.pi**2))
+        return math.sqrt(min(smallest_positive_root(_turning(k)), math.pi**2))
+
+    def reaches(self, k: Array, radius: float) -> bool:
+        """Whether the image radius grows up to an angle, rad."""
+        return radius < math.pi and is_positive_up_to(_turning(k), radius * radius)
+
+    def like_division(self, coefficient: float) -> Array:
+        """Return no coefficients (4,): the equidistant lens is near enough to the division model of any."""
+        return np.zeros(4)
+
+
+def _turning(k: Array) -> Array:
+    """Return dθd/dθ of k (4,) as a polynomial in θ²."""
+    return np.array([1.0, *(TURNING * k)])
 
 
 def _factor(t: Array, k: Array) -> Array:

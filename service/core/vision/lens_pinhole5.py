@@ -11,45 +11,18 @@ from service.core.vision.perspective import PerspectiveLens
 from service.core.vision.transforms import Array
 
 
-def distort(xy: Array, k: Array) -> Array:
-    """Return distorted coordinates (..., 2) of ideal ones (..., 2); k: (5,) or broadcastable (..., 5)."""
-    x, y = xy[..., 0], xy[..., 1]
-    k1, k2, p1, p2, k3 = (k[..., i] for i in range(5))
-    xx, yy, xy2 = x * x, y * y, 2.0 * x * y
-    r2 = xx + yy
-    radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
-    xd = x * radial + p1 * xy2 + p2 * (r2 + 2.0 * xx)
-    yd = y * radial + p1 * (r2 + 2.0 * yy) + p2 * xy2
-    return np.stack([xd, yd], axis=-1)
+def radial(r2: Array, k: Array) -> Array:
+    """Return the radial factor (...) of r² (...); k: (5,) or broadcastable (..., 5)."""
+    k1, k2, k3 = k[..., 0], k[..., 1], k[..., 4]
+    return np.asarray(1.0 + r2 * (k1 + r2 * (k2 + r2 * k3)))
 
 
-def distort_with_jacobians(xy: Array, k: Array) -> tuple[Array, Array, Array]:
-    """Return the distorted point (..., 2), its derivatives by xy (2, 2, ...) and by k (2, 5, ...).
-
-    The components come first in memory, so that each is written in one stroke.
-    """
-    x, y = xy[..., 0], xy[..., 1]
-    k1, k2, p1, p2, k3 = (k[..., i] for i in range(5))
-    xx, yy, xy2 = x * x, y * y, 2.0 * x * y
-    r2 = xx + yy
-    radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
-    slope = 2.0 * (k1 + r2 * (2.0 * k2 + 3.0 * r2 * k3))
-    tangential_x, tangential_y = 2.0 * (p2 * x + p1 * y), 2.0 * (p1 * x + p2 * y)
-    by_xy = np.empty((2, 2, *x.shape))
-    by_xy[0, 0] = radial + slope * xx + tangential_x + 4.0 * p2 * x
-    by_xy[0, 1] = by_xy[1, 0] = 0.5 * slope * xy2 + tangential_y
-    by_xy[1, 1] = radial + slope * yy + tangential_x + 4.0 * p1 * y
-    by_k = np.empty((2, 5, *x.shape))
-    by_k[0, 0], by_k[1, 0] = x * r2, y * r2
-    by_k[:, 1] = by_k[:, 0] * r2
-    by_k[:, 4] = by_k[:, 1] * r2
-    by_k[0, 2] = by_k[1, 3] = xy2
-    by_k[0, 3] = r2 + 2.0 * xx
-    by_k[1, 2] = r2 + 2.0 * yy
-    distorted = np.empty((*x.shape, 2))
-    distorted[..., 0] = x * radial + p1 * xy2 + p2 * by_k[0, 3]
-    distorted[..., 1] = y * radial + p1 * by_k[1, 2] + p2 * xy2
-    return distorted, by_xy, by_k
+def radial_with_jacobians(r2: Array, k: Array) -> tuple[Array, Array, tuple[Array, ...]]:
+    """Return the radial factor (...), twice its derivative by r², and those by k1, k2, k3."""
+    k1, k2, k3 = k[..., 0], k[..., 1], k[..., 4]
+    slope = 2.0 * k1 + r2 * (4.0 * k2 + r2 * (6.0 * k3))
+    r4 = r2 * r2
+    return radial(r2, k), slope, (r2, r4, r4 * r2)
 
 
 def monotone_radius(k: Array) -> float:
@@ -62,6 +35,11 @@ def monotone_radius(k: Array) -> float:
     largest = _largest_cubic_root(a, b, c)
     # Below this the root is rounding, and the fold, if there is one, some 0.1 degrees from the image plane.
     return 1.0 / math.sqrt(largest) if largest > 1e-6 * max(1.0, abs(a)) else math.inf
+
+
+def grows_to(k: Array, radius: float) -> bool:
+    """Whether the distorted radius grows up to an ideal radius."""
+    return radius < monotone_radius(k)
 
 
 def _largest_cubic_root(a: float, b: float, c: float) -> float:
@@ -81,5 +59,5 @@ def _largest_cubic_root(a: float, b: float, c: float) -> float:
 
 
 LENS = PerspectiveLens(
-    "pinhole5", ("k1", "k2", "p1", "p2", "k3"), distort, distort_with_jacobians, monotone_radius
+    "pinhole5", ("k1", "k2", "p1", "p2", "k3"), radial, radial_with_jacobians, monotone_radius, grows_to
 )

@@ -14,23 +14,24 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.calibration_start import blind_start, nominal_start, sweep_starts
+from service.core.vision.blind_start import blind_start
+from service.core.vision.calibration_start import nominal_start, sweep_starts
 from service.core.vision.camera import LENSES, Intrinsics, parameter_names
 from service.core.vision.levenberg_marquardt import Fit, minimise
 from service.core.vision.normal_equations import Estimate
-from service.core.vision.transforms import Array
-from service.core.vision.uncertainty import mapping_difference, whole_image
+from service.core.vision.transforms import Array, turn_points
+from service.core.vision.uncertainty import difference_of_rays
 from service.core.vision.view_stack import ViewStack
 
 AGREEMENT_PX = 0.05
 THINNED_CORNERS = 16
-DAMPING_NEAR_OPTIMUM = 1e-9
 # The optimum of a few corners is itself several sd of all unknowns away from that of all corners.
-COARSE_DISTANCE_SD = 0.03
+COARSE_DISTANCE_SD = 0.1
 # On the way an estimate is shown, and must come soon: where it takes longer, too few views determine it.
 QUICK_STEPS = 15
 QUICK_DISTANCE_SD = 0.01
 FIRST_PARAMETERS = (0, 1, 4)
+COMPARED_CORNERS = 5  # of each view at least
 
 
 @dataclass(frozen=True)
@@ -69,14 +70,15 @@ def solve_from_starts(problem: Problem) -> Ends:
     decides whether blind was merely unlucky.
     """
     thinned = problem.stack.thinned(THINNED_CORNERS)
-    blind = _coarse(problem, thinned, blind_start(problem.lens, problem.image_size, thinned))
+    blind = blind_start(problem.lens, problem.image_size, thinned)
     if problem.nominal is None:
-        return _finish(problem, {"sweep": _sweep(problem, thinned), "blind": blind})
-    nominal = _coarse(problem, thinned, nominal_start(problem.nominal, thinned))
-    ends = _finish(problem, {"nominal": nominal, "blind": blind})
+        end, *_ = _coarse(problem, thinned, [blind])
+        return _finish(problem, {"sweep": _sweep(problem, thinned), "blind": end})
+    nominal, end = _coarse(problem, thinned, [nominal_start(problem.nominal, thinned), blind])
+    ends = _finish(problem, {"nominal": nominal, "blind": end})
     if ends.agreement_px <= AGREEMENT_PX:
         return ends
-    return _finish(problem, {"nominal": nominal, "blind": _cheapest([blind, _sweep(problem, thinned)])})
+    return _finish(problem, {"nominal": nominal, "blind": _cheapest([end, _sweep(problem, thinned)])})
 
 
 def solve_from_nominal(problem: Problem, nominal: Intrinsics) -> Ends:
@@ -84,83 +86,71 @@ def solve_from_nominal(problem: Problem, nominal: Intrinsics) -> Ends:
     thinned = problem.stack.thinned(THINNED_CORNERS)
     start = _held(problem, nominal_start(nominal, thinned))
     quick = partial(minimise, problem.lens, iterations=QUICK_STEPS)
-    coarse = quick(thinned, start, problem.firm, distance_sd=COARSE_DISTANCE_SD)
-    near = coarse and quick(
-        problem.stack,
-        coarse.estimate,
-        problem.free,
-        damping=DAMPING_NEAR_OPTIMUM,
-        distance_sd=QUICK_DISTANCE_SD,
-    )
-    return Ends({"nominal": _counted(near, coarse)}, float("inf"))
+    (coarse,) = quick(thinned, [start], problem.firm, distance_sd=COARSE_DISTANCE_SD)
+    near = coarse.estimate if coarse else None
+    (fine,) = quick(problem.stack, [near], problem.free, damping=0.0, distance_sd=QUICK_DISTANCE_SD)
+    return Ends({"nominal": _counted(fine, coarse)}, float("inf"))
 
 
 def _sweep(problem: Problem, thinned: ViewStack) -> Fit | None:
     """Return the end of a sweep of focal lengths on a few corners: the most promising until one is proven."""
     starts = sweep_starts(problem.lens, problem.image_size, thinned)
-    ahead = [_ahead(problem, thinned, start) for start in starts]
+    ahead = _ahead(problem, thinned, starts)
     ends: list[Fit | None] = []
-    for fit in sorted((fit for fit in ahead if fit), key=lambda fit: fit.equations.cost):
-        end = _coarse(problem, thinned, fit.estimate)
+    for fit in sorted((fit for fit in ahead if fit), key=lambda fit: float(fit.equations.cost)):
+        end, *_ = _coarse(problem, thinned, [fit.estimate])
         ends.append(end)
         if end and end.converged:
             break
     return _cheapest(ends)
 
 
-def _ahead(problem: Problem, thinned: ViewStack, start: Estimate) -> Fit | None:
-    """Return a start with its focal length and first coefficient improved."""
+def _ahead(problem: Problem, thinned: ViewStack, starts: Sequence[Estimate]) -> list[Fit | None]:
+    """Return starts with their focal length and first coefficient improved."""
     first = np.intersect1d(problem.free, FIRST_PARAMETERS)
-    return minimise(problem.lens, thinned, _held(problem, start), first, iterations=12)
+    return minimise(problem.lens, thinned, [_held(problem, start) for start in starts], first, iterations=12)
 
 
-def _coarse(problem: Problem, thinned: ViewStack, start: Estimate | None) -> Fit | None:
-    """Return the end of a start on a few corners of each view.
+def _coarse(problem: Problem, thinned: ViewStack, starts: Sequence[Estimate | None]) -> list[Fit | None]:
+    """Return the ends of starts on a few corners of each view.
 
-    Where it sticks at the fold of the lens, it is tried again on a path that may lead through the fold.
+    Where one sticks at the fold of the lens, it is tried again on a path that may lead through the fold.
     """
-    if start is None:
-        return None
-    start = _held(problem, start)
+    held = [_held(problem, start) if start else None for start in starts]
     solve = partial(
-        minimise, problem.lens, thinned, start, problem.firm, iterations=60, distance_sd=COARSE_DISTANCE_SD
+        minimise, problem.lens, thinned, free=problem.firm, iterations=60, distance_sd=COARSE_DISTANCE_SD
     )
-    direct = solve()
-    if direct and direct.converged:
-        return _arrived(problem, direct)
-    through = solve(may_fold=True)
-    return _arrived(problem, through) if through and through.converged else _cheapest([direct, through])
-
-
-def _arrived(problem: Problem, fit: Fit) -> Fit:
-    """Return a proven fit with the step of its proof taken, so that ends can be told apart to a hair."""
-    if fit.proof is None:
-        return fit
-    step = np.zeros_like(fit.estimate.vector)
-    step[problem.firm] = fit.proof.parameters
-    return replace(fit, estimate=fit.estimate.moved(step, fit.proof.poses))
+    ends = solve(held)
+    stuck = [start if not (end and end.converged) else None for start, end in zip(held, ends, strict=True)]
+    if not any(stuck):
+        return ends
+    through = solve(stuck, may_fold=True)
+    return [
+        folded if folded and folded.converged else _cheapest([end, folded])
+        for end, folded in zip(ends, through, strict=True)
+    ]
 
 
 def _cheapest(fits: Sequence[Fit | None]) -> Fit | None:
     """Return the fit of least cost; None where there is none."""
-    return min((fit for fit in fits if fit), key=lambda fit: fit.equations.cost, default=None)
+    return min((fit for fit in fits if fit), key=lambda fit: float(fit.equations.cost), default=None)
 
 
 def _finish(problem: Problem, coarse: Mapping[str, Fit | None]) -> Ends:
     """Return the ends on all corners of the ends on a few."""
     agreement = _largest_difference(problem, coarse)
     if agreement <= AGREEMENT_PX:
-        common = _fine(problem, next(iter(coarse.values())))
+        (common,) = _fine(problem, list(coarse.values())[:1])
         return Ends({name: _counted(common, fit) for name, fit in coarse.items()}, agreement)
-    fits = {name: _counted(_fine(problem, fit), fit) for name, fit in coarse.items()}
+    ends = _fine(problem, list(coarse.values()))
+    fits = {name: _counted(end, fit) for (name, fit), end in zip(coarse.items(), ends, strict=True)}
     return Ends(fits, _largest_difference(problem, fits))
 
 
-def _fine(problem: Problem, near: Fit | None) -> Fit | None:
-    """Return the end on all corners; None where the lens cannot show them all from there."""
-    if near is None:
-        return None
-    return minimise(problem.lens, problem.stack, near.estimate, problem.free, damping=DAMPING_NEAR_OPTIMUM)
+def _fine(problem: Problem, near: Sequence[Fit | None]) -> list[Fit | None]:
+    """Return the ends on all corners; None where the lens cannot show them all from there."""
+    starts = [fit.estimate if fit else None for fit in near]
+    return minimise(problem.lens, problem.stack, starts, problem.free, damping=0.0)
 
 
 def _counted(fit: Fit | None, coarse: Fit | None) -> Fit | None:
@@ -169,12 +159,19 @@ def _counted(fit: Fit | None, coarse: Fit | None) -> Fit | None:
 
 
 def _largest_difference(problem: Problem, fits: Mapping[str, Fit | None]) -> float:
-    """Return the largest difference of ends, px over the image; inf without an end or a common pixel."""
-    cameras = [problem.intrinsics(fit.estimate.vector) for fit in fits.values() if fit]
-    if len(cameras) < len(fits):
+    """Return the largest difference of ends, px at the corners; inf without an end or a common corner.
+
+    Where there are no corners the views say nothing: there, ends of one optimum differ as well.
+    """
+    ends = [fit.estimate for fit in fits.values() if fit]
+    if len(ends) < len(fits):
         return float("inf")
-    grid = whole_image(problem.image_size)
-    differences = np.array([mapping_difference(a, b, grid) for a, b in combinations(cameras, 2)])
+    points = problem.stack.object_points[
+        :, :: max(problem.stack.object_points.shape[1] // COMPARED_CORNERS, 1)
+    ]
+    rays = (turn_points(ends[0].rotations, points) + ends[0].translations[:, None]).reshape(-1, 3)
+    cameras = [problem.intrinsics(end.vector) for end in ends]
+    differences = np.array([difference_of_rays(a, b, rays) for a, b in combinations(cameras, 2)])
     return float(np.nanmax(differences, initial=0.0)) if np.any(np.isfinite(differences)) else float("inf")
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+TINY_RAD = 1e-8
 
 
 @dataclass(frozen=True)
@@ -66,12 +67,18 @@ def skew(v: Array) -> Array:
 def rotation_matrix(rvec: Array) -> Array:
     """Return rotation matrices (..., 3, 3) of rotation vectors (..., 3), rad (Rodrigues' formula)."""
     rvec = np.asarray(rvec, dtype=np.float64)
-    half = np.linalg.norm(rvec, axis=-1)[..., None, None] / (2.0 * np.pi)
-    # sin θ / θ and (1 − cos θ) / θ², also where θ vanishes; NumPy's sinc is of π x.
-    a, b = np.sinc(2.0 * half), 0.5 * np.sinc(half) ** 2
-    K = skew(rvec)
-    rotation: Array = np.eye(3) + a * K + b * (K @ K)
-    return rotation
+    square = np.einsum("...i,...i->...", rvec, rvec)
+    angle = np.maximum(np.sqrt(square), TINY_RAD)
+    # sin θ / θ and (1 − cos θ) / θ²; to rounding their limits for an angle of almost nothing.
+    half = np.sin(0.5 * angle) / angle
+    a, b = np.sin(angle) / angle, 2.0 * half * half
+    R = np.asarray(b[..., None, None] * (rvec[..., :, None] * rvec[..., None, :]))
+    np.einsum("...ii->...i", R)[...] += (1.0 - b * square)[..., None]
+    turned = a[..., None] * rvec
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        R[..., i, j] -= turned[..., k]
+        R[..., j, i] += turned[..., k]
+    return R
 
 
 def turn_points(R: Array, points: Array) -> Array:
@@ -82,29 +89,23 @@ def turn_points(R: Array, points: Array) -> Array:
 def rotation_vector(R: Array) -> Array:
     """Return rotation vectors (..., 3), rad, of rotation matrices (..., 3, 3), by way of unit quaternions."""
     R = np.asarray(R, dtype=np.float64)
-    trace = np.trace(R, axis1=-2, axis2=-1)
-    diagonal = np.diagonal(R, axis1=-2, axis2=-1)
-    # The four candidate quaternions (w, x, y, z); the one with the largest pivot is well conditioned.
-    pivots = np.concatenate([trace[..., None], 2.0 * diagonal - trace[..., None]], axis=-1) + 1.0
-    d = np.stack(
-        [R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]], axis=-1
-    )
-    s = R + np.swapaxes(R, -1, -2)
-    rows = [
-        [pivots[..., 0], d[..., 0], d[..., 1], d[..., 2]],
-        [d[..., 0], pivots[..., 1], s[..., 0, 1], s[..., 0, 2]],
-        [d[..., 1], s[..., 0, 1], pivots[..., 2], s[..., 1, 2]],
-        [d[..., 2], s[..., 0, 2], s[..., 1, 2], pivots[..., 3]],
-    ]
-    candidates = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
-    best = np.argmax(pivots, axis=-1)
-    q = np.take_along_axis(candidates, best[..., None, None], axis=-2)[..., 0, :]
-    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
+    # All products of two of w, x, y, z, four times; the row of the largest square is well conditioned.
+    products = np.empty((*R.shape[:-2], 4, 4))
+    products[..., 1:, 1:] = R + R.swapaxes(-1, -2)
+    xx, yy, zz = R[..., 0, 0], R[..., 1, 1], R[..., 2, 2]
+    products[..., 0, 0], products[..., 1, 1] = 1.0 + xx + yy + zz, 1.0 + xx - yy - zz
+    products[..., 2, 2], products[..., 3, 3] = 1.0 - xx + yy - zz, 1.0 - xx - yy + zz
+    for i, j, k in ((0, 2, 1), (1, 0, 2), (2, 1, 0)):
+        products[..., 0, 1 + i] = products[..., 1 + i, 0] = R[..., j, k] - R[..., k, j]
+    best = np.einsum("...ii->...i", products).argmax(axis=-1)
+    q = np.take_along_axis(products, best[..., None, None], axis=-2)[..., 0, :]
     q = np.where(q[..., :1] < 0, -q, q)
-    sine = np.linalg.norm(q[..., 1:], axis=-1)
-    angle = 2.0 * np.arctan2(sine, q[..., 0])
-    scale = np.where(sine < 1e-12, 2.0, angle / np.where(sine < 1e-12, 1.0, sine))
-    vector: Array = q[..., 1:] * scale[..., None]
+    xyz = q[..., 1:]
+    sine = np.sqrt(np.sum(xyz * xyz, axis=-1))
+    none = sine < 1e-12 * q[..., 0]
+    # Of almost no angle the vector is twice the quaternion's of length one, whose w is one.
+    angle = np.where(none, 2.0, 2.0 * np.arctan2(sine, q[..., 0]))
+    vector: Array = xyz * (angle / np.where(none, q[..., 0], sine))[..., None]
     return vector
 
 

@@ -11,12 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.camera import Intrinsics, project_with_jacobians, reach_share, unproject
+from service.core.vision.camera import (
+    Intrinsics,
+    are_reached,
+    project_camera_points,
+    project_with_jacobians,
+    unproject,
+)
 from service.core.vision.transforms import Array, rotation_matrix
 
 GRID = (12, 8)
 ROTATION_STEPS = 8
-SMALL_TURN_RAD = 1e-6
+SMALL_TURN_RAD = 1e-5
 
 
 @dataclass(frozen=True)
@@ -108,8 +114,20 @@ def mapping_difference(a: Intrinsics, b: Intrinsics, grid: Region | Array) -> Ar
     grid: a region or pixels (m, 2) of a. NaN for pixels that a lens does not reach.
     """
     pixels = grid.grid(*GRID) if isinstance(grid, Region) else grid
-    rays = unproject(a, pixels)
-    reached = reach_share(b, rays) < 1.0
+    return _difference(b, unproject(a, pixels), pixels)
+
+
+def difference_of_rays(a: Intrinsics, b: Intrinsics, rays: Array) -> Array:
+    """Return the distances (m,) px between the images of rays (m, 3) in a and in b after the best rotation.
+
+    NaN for those that a lens does not reach.
+    """
+    return _difference(b, rays, project_camera_points(a, rays))
+
+
+def _difference(b: Intrinsics, rays: Array, pixels: Array) -> Array:
+    """Return the distances (m,) px from pixels (m, 2) of rays (m, 3) in b after the best rotation."""
+    reached = np.isfinite(pixels).all(axis=-1) & are_reached(b, rays)
     out = np.full(len(pixels), np.nan)
     if np.count_nonzero(reached) >= 2:
         _, left = best_turn(b, rays[reached], pixels[reached])
@@ -139,6 +157,10 @@ def best_turn(b: Intrinsics, rays: Array, pixels: Array) -> tuple[Array, Array]:
 def _best_turns(B: Array, moved: Array) -> Array:
     """Return the turns (3, ...), rad, by which B (n, 3) explains most of how pixels moved (n, ...), px.
 
-    By the normal equations, which are well conditioned: all turns move pixels by about as much.
+    By the normal equations, which are well conditioned, all turns moving pixels by about as much; but for the
+    turn about a single pixel, which moves nothing.
     """
-    return np.asarray(np.linalg.pinv(B.T @ B, hermitian=True) @ (B.T @ moved))
+    try:
+        return np.asarray(np.linalg.solve(B.T @ B, B.T @ moved))
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.pinv(B.T @ B, hermitian=True) @ (B.T @ moved))

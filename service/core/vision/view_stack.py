@@ -4,7 +4,7 @@ Padding repeats the first corner of a view with weight zero. The weights are als
 Not here: solving.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -119,26 +119,44 @@ def _check_shapes(view: View, name: str) -> None:
 def _check_values(stack: ViewStack, names: Sequence[str]) -> None:
     """Raise DegenerateViews naming the first view whose points are not finite, not flat or on one line."""
     board, image = stack.object_points, stack.image_points
-    problems = {
-        "has a corner that is not a finite number; detect it again": ~(
-            np.isfinite(board).all(axis=(1, 2)) & np.isfinite(image).all(axis=(1, 2))
+    looks: dict[str, Callable[[], NDArray[np.bool_]]] = {
+        "has a corner that is not a finite number; detect it again": lambda: (
+            _not_finite(board) | _not_finite(image)
         ),
-        "has object points off the plane z = 0; only nearly flat targets are calibrated": np.any(
-            np.abs(board[..., 2]) > LARGEST_BEND * np.ptp(board[..., :2], axis=1).max(axis=1)[:, None],
-            axis=1,
+        "has object points off the plane z = 0; only nearly flat targets are calibrated": lambda: _bent(
+            board
         ),
-        "has all its corners on one line; show the target less edge-on": _on_a_line(board[..., :2])
-        | _on_a_line(image),
+        "has all its corners on one line; show the target less edge-on": lambda: np.any(
+            _on_a_line(np.stack([board[..., :2], image])), axis=0
+        ),
     }
-    for problem, views in problems.items():
+    for problem, look in looks.items():
+        views = look()
         if np.any(views):
             name = names[int(np.argmax(views))]
             raise DegenerateViews(f"View {name} {problem}.", view=name)
 
 
+def _not_finite(points: Array) -> NDArray[np.bool_]:
+    """Whether a point (v, n, d) of each view is not finite."""
+    # A sum over all of them is finite where they all are, and not much slower than one of them.
+    if np.isfinite(points.sum()):
+        return np.zeros(len(points), dtype=np.bool_)
+    return np.asarray(~np.isfinite(points).all(axis=(1, 2)))
+
+
+def _bent(board: Array) -> NDArray[np.bool_]:
+    """Whether points (v, n, 3) of each view are far from the plane z = 0."""
+    if not board[..., 2].any():
+        return np.zeros(len(board), dtype=np.bool_)
+    size = np.ptp(board[..., :2], axis=1).max(axis=1)
+    return np.asarray(np.abs(board[..., 2]).max(axis=1) > LARGEST_BEND * size)
+
+
 def _on_a_line(points: Array) -> NDArray[np.bool_]:
-    """Whether the points (v, n, 2) of each view spread along one direction only."""
-    about = points - points.mean(axis=1, keepdims=True)
-    x, y = about[..., 0], about[..., 1]
-    xx, yy, xy = (np.sum(product, axis=1) for product in (x * x, y * y, x * y))
+    """Whether points (..., n, 2) spread along one direction only: (...)."""
+    x, y = np.array(points[..., 0]), np.array(points[..., 1])
+    x -= x.mean(axis=-1, keepdims=True)
+    y -= y.mean(axis=-1, keepdims=True)
+    xx, yy, xy = (np.einsum("...n,...n->...", a, b) for a, b in ((x, x), (y, y), (x, y)))
     return np.asarray(xx * yy - xy * xy <= 1e-12 * (xx + yy) ** 2)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from service.core.vision.calibration_start import blind_start, nominal_start, planar_poses
+from service.core.vision.blind_start import blind_start
+from service.core.vision.calibration_start import nominal_start, planar_poses
 from service.core.vision.camera import Intrinsics, unproject
 from service.core.vision.normal_equations import is_feasible
 from service.core.vision.transforms import angle_between

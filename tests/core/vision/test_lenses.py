@@ -129,3 +129,12 @@ def test_what_is_just_before_the_fold_is_not_taken_for_beyond_it(name: str, tang
     again = np.isfinite(found[:, 0])
     np.testing.assert_allclose(lens.project(found[again], k), image[again], atol=1e-8)
     assert np.isnan(lens.unproject(1.2 * image, k)).all()
+
+
+def test_a_rational_lens_bends_like_the_division_model_where_that_bends_as_wide_lenses_do() -> None:
+    lens = LENSES["rational8"]
+    distorted = np.linspace(0.0, 0.95, 50)  # to 52 degrees
+    ideal = distorted / (1.0 - 0.3 * distorted**2)
+    image = lens.project(np.stack([ideal, np.zeros(50), np.ones(50)], axis=-1), lens.like_division(-0.3))
+    np.testing.assert_allclose(image[:, 0], distorted, atol=0.03)
+    assert not np.any(lens.like_division(0.3))

@@ -8,6 +8,7 @@ from service.core.vision.camera import Intrinsics, project_camera_points, unproj
 from service.core.vision.transforms import rotation_matrix
 from service.core.vision.uncertainty import (
     Region,
+    difference_of_rays,
     mapping_difference,
     mapping_error,
     parameter_metric,
@@ -31,6 +32,15 @@ def test_a_region_is_covered_from_edge_to_edge_row_by_row() -> None:
 
 def test_a_camera_differs_from_itself_by_nothing() -> None:
     assert mapping_difference(WIDE, WIDE, whole_image(WIDE.image_size)).max() < 1e-9
+
+
+def test_rays_and_their_pixels_differ_alike() -> None:
+    other = changed(LENS1, np.array([3.0, 2.0, 5.0, -4.0, 0.01, -0.02, 1e-3, -1e-3, 0.01]))
+    grid = MIDDLE.grid(12, 8)
+    rays = 0.7 * unproject(LENS1, grid)
+    found = difference_of_rays(LENS1, other, np.vstack([rays, [0.0, 0.1, -1.0]]))
+    np.testing.assert_allclose(found[:-1], mapping_difference(LENS1, other, grid), atol=1e-6)
+    assert np.isnan(found[-1])
 
 
 def test_a_shifted_centre_is_mostly_a_rotation() -> None:
