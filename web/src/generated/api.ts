@@ -981,7 +981,7 @@ export interface Result {
   views: ViewResult[];
   /** Where the solver started from, and what it reached. */
   starts: Start[];
-  /** Largest difference between the starts; null: one of them failed. */
+  /** Largest difference between the starts at the corners; null: one of them failed. */
   agreement_px: number | null;
   /** Null where every prescribed pose was taken. */
   early_finish: EarlyFinish | null;
