@@ -1,6 +1,7 @@
 """From a frame to what an operator's page gets: detection, pose, comparison, hints and the session's step."""
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,12 +45,11 @@ def guide(camera: Intrinsics, target: Chessboard, poses: Sequence[Pose]) -> Look
 
 
 def _observe(found: LiveDetection, camera: Intrinsics, target: Chessboard, at_s: float) -> Observation:
-    pose = None
+    pose, by = None, None
     if found.image_points is not None:
-        try:
-            pose = estimate_pose(camera, target.object_points, found.image_points).pose
-        except PoseUndetermined:
-            pose = None
+        with suppress(PoseUndetermined):
+            estimate = estimate_pose(camera, target.object_points, found.image_points)
+            pose, by = estimate.freed or (estimate.pose, None)
     return Observation(
         at_s,
         found.kind,
@@ -58,4 +58,5 @@ def _observe(found: LiveDetection, camera: Intrinsics, target: Chessboard, at_s:
         found.image_points,
         found.edge_width_px,
         found.brightness,
+        camera=by,
     )

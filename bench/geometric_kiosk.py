@@ -131,10 +131,12 @@ def observe(
         return Observation(at_s, "partial", int(inside.sum()), sequence=sequence)
     points = corners + rng.normal(0.0, NOISE_PX, corners.shape)
     try:
-        seen = estimate_pose(settings.intrinsics, target.object_points, points).pose
+        found = estimate_pose(settings.intrinsics, target.object_points, points)
     except PoseUndetermined:
         return Observation(at_s, "partial", len(points), sequence=sequence)
-    return Observation(at_s, "present", len(points), seen, points, SHARP_PX, 180.0, sequence)
+    seen, by = found.freed or (found.pose, None)
+    n = len(points)
+    return Observation(at_s, "present", n, seen, points, SHARP_PX, 180.0, sequence, camera=by)
 
 
 def _inside(corners: Array, image_size: tuple[int, int]) -> Array:

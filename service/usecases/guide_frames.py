@@ -14,7 +14,7 @@ from service.core.errors import BadRequest, PoseUndetermined, WrongImageSize
 from service.core.guidance.observation import Observation
 from service.core.guidance.problems import FrameMoved
 from service.core.guidance.session_state import GuidanceSettings
-from service.core.vision.camera import project
+from service.core.vision.camera import Intrinsics, project
 from service.core.vision.live_corners import LiveWorkspace
 from service.core.vision.live_detection import LiveDetection, detect_live
 from service.core.vision.pose import estimate_pose
@@ -50,13 +50,13 @@ class Eye:
         settings = self._settings
         check_size(frame, settings.intrinsics.image_size)
         seen = self._detect(frame.image, frame.scale)
-        pose, image_points = None, seen.image_points
+        pose, camera, image_points = None, None, seen.image_points
         if image_points is not None:
             self._judged[frame.sequence] = image_points
             while len(self._judged) > FRAMES_KEPT:
                 self._judged.popitem(last=False)
-            pose = self._pose(image_points)
-            image_points = self._whole(image_points, pose)
+            pose, camera = self._pose(image_points)
+            image_points = self._whole(image_points, pose, camera)
         # A part of a board that no pose explains says nothing of where the rest is.
         is_board = seen.kind != "present" or image_points is not None
         return Observation(
@@ -64,6 +64,7 @@ class Eye:
             kind=seen.kind if is_board else "partial",
             corners_seen=seen.corners_seen,
             pose=pose,
+            camera=camera,
             image_points=image_points,
             edge_width_px=seen.edge_width_px,
             brightness=seen.brightness,
@@ -71,23 +72,27 @@ class Eye:
             glare_share=seen.glare_share,
         )
 
-    def _pose(self, image_points: Array) -> Pose | None:
-        """Return the pose by the corners (n, 2) that are not NaN; None where none explains them."""
+    def _pose(self, image_points: Array) -> tuple[Pose | None, Intrinsics | None]:
+        """Return the pose by the corners (n, 2) that are not NaN, None where none explains them.
+
+        And the camera that it is of, where the nominal one is wrong.
+        """
         is_seen = ~np.isnan(image_points[:, 0])
         points = self._settings.target.object_points[is_seen]
         try:
-            return estimate_pose(self._settings.intrinsics, points, image_points[is_seen]).pose
+            found = estimate_pose(self._settings.intrinsics, points, image_points[is_seen])
         except PoseUndetermined:
-            return None
+            return None, None
+        return found.freed or (found.pose, None)
 
-    def _whole(self, image_points: Array, pose: Pose | None) -> Array | None:
+    def _whole(self, image_points: Array, pose: Pose | None, camera: Intrinsics | None) -> Array | None:
         """Return corners (n, 2) with those that are NaN where the pose puts them; None if it does not."""
         if not np.isnan(image_points).any():
             return image_points
         if pose is None:
             return None
-        target = self._settings.target
-        told = project(self._settings.intrinsics, pose.rotation, pose.tvec, target.object_points)
+        target, camera = self._settings.target, camera or self._settings.intrinsics
+        told = project(camera, pose.rotation, pose.tvec, target.object_points)
         whole = np.where(np.isnan(image_points), told, image_points)
         return None if np.isnan(whole).any() else whole
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.vision.camera import Intrinsics, project, project_camera_points
+from service.core.vision.pose import fit_pose
 from service.core.vision.target import Target
 from service.core.vision.transforms import Array, Pose, rotation_matrix, rotation_vector
 
@@ -98,8 +99,13 @@ def default_tolerances(image_size: tuple[int, int]) -> Tolerances:
     return Tolerances(corner_px=0.02 * image_size[0], offset_px=30.0 * scale)
 
 
-def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Target) -> PoseDifference:
-    """Return how the seen board must move to reach the expected pose; both poses before the camera."""
+def compare_pose(
+    expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Target, told: Array | None = None
+) -> PoseDifference:
+    """Return how the seen board must move to reach the expected pose; both poses before the camera.
+
+    told: where the expected outer corners (4, 2) px are to be, if not where these intrinsics put them.
+    """
     R, R_seen = expected.rotation, seen.rotation
     wanted, found = R @ target.centre + expected.tvec, R_seen @ target.centre + seen.tvec
     pixels = project_camera_points(intrinsics, np.array([wanted, found]))
@@ -113,6 +119,8 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Tar
     corners = project(intrinsics, rotations, centres, outer)
     distances = np.nan_to_num(np.linalg.norm(corners[1:6] - corners[0], axis=-1), nan=UNSEEN_PX).mean(axis=-1)
     across, down_m, along = abs(shift[0]), abs(shift[1]), np.linalg.norm(found) * abs(closer) / (1.0 + closer)
+    if told is not None:
+        distances[0] = np.linalg.norm(corners[1] - told, axis=-1).mean()
     corner_px, closer_px, tilt_px, turn_px, roll_px = (float(distance) for distance in distances)
     out = [bool(leads) for leads in ~_are_inside(corners[6:], intrinsics.image_size)]
     alone, half, together = out[:6], out[6:12], out[12:]
@@ -131,6 +139,18 @@ def compare_pose(expected: Pose, seen: Pose, intrinsics: Intrinsics, target: Tar
         half_leads_out=_six(half),
         together_lead_out=frozenset(axes for axes, leads in zip(TOGETHER, together, strict=True) if leads),
     )
+
+
+def reseat(expected: Pose, nominal: Intrinsics, camera: Intrinsics, target: Target) -> tuple[Pose, Array]:
+    """Return the pose that fills in another camera the place in the picture that a pose fills in the nominal.
+
+    And where its outer corners (4, 2) px are to be: that place needs not be one of the other camera's.
+    """
+    told = project(nominal, expected.rotation, expected.tvec, target.object_points)
+    nearer = camera.camera_matrix[0, 0] / nominal.camera_matrix[0, 0]
+    centre = expected.rotation @ target.centre + expected.tvec
+    start = Pose(expected.rvec, expected.tvec + centre * (nearer - 1.0))
+    return fit_pose(camera, start, target.object_points, told), told[list(target.outer_corners)]
 
 
 def is_match(difference: PoseDifference, tolerances: Tolerances) -> bool:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from service.core.vision.camera import Intrinsics
 from service.core.vision.live_detection import BoardKind
 from service.core.vision.transforms import Array, Pose
 
@@ -16,6 +17,7 @@ class Observation:
     edge_width_px: 10–90 % width of its edges, full-size px; brightness: mean grey level of its bright
     squares, 0…255, without a board of the frame; glare_share: saturated share of the bright squares; None
     where not measured. sequence: the frame's number; a capture asks for it by that.
+    camera: the one that the pose is of, where the nominal one does not explain the corners.
     """
 
     at_s: float
@@ -27,3 +29,4 @@ class Observation:
     brightness: float | None = None
     sequence: int = 0
     glare_share: float | None = None
+    camera: Intrinsics | None = None

@@ -25,12 +25,14 @@ from service.core.guidance.actions import (
     Undo,
 )
 from service.core.guidance.auto_capture import Obstacle, dwell_share, extend_dwell, find_obstacles
-from service.core.guidance.comparison import compare_pose, is_match
+from service.core.guidance.comparison import PoseDifference, compare_pose, is_match, reseat
 from service.core.guidance.feature_order import in_order_of
 from service.core.guidance.hints import choose_hints
 from service.core.guidance.observation import Observation
 from service.core.guidance.session_poses import add_pose, afresh, despair, give_up, next_pose, postpone, weigh
 from service.core.guidance.session_state import GuidanceSettings, SessionState, Step
+from service.core.vision.camera import Intrinsics
+from service.core.vision.transforms import Pose
 
 NOT_SEEN: Final = "not-seen"
 LONGEST_GAP_S: Final = 1.0  # between two frames; what is longer is no time of guidance
@@ -108,13 +110,24 @@ def _judge(state: SessionState, now: Observation, settings: GuidanceSettings) ->
     bare = replace(state, last=now, difference=None, obstacles=(), moves=(), dwell=None)
     if now.kind != "present" or now.pose is None or expected is None:
         return bare
-    difference = compare_pose(expected, now.pose, settings.intrinsics, settings.target)
+    difference = _compare(expected, now.pose, now.camera, settings)
     moves = choose_hints(difference, settings.tolerances, state.moves)
     matched = is_match(difference, settings.tolerances)
     obstacles = find_obstacles(matched, state.last, now, settings.limits)
     waits = bool(obstacles) or state.pending is not None
     dwell = None if waits else extend_dwell(state.dwell, now, settings.limits)
     return replace(bare, difference=difference, obstacles=obstacles, moves=moves, dwell=dwell)
+
+
+def _compare(
+    expected: Pose, seen: Pose, camera: Intrinsics | None, settings: GuidanceSettings
+) -> PoseDifference:
+    """Return how a board must move that the nominal camera sees, or another one where that is wrong."""
+    nominal, target = settings.intrinsics, settings.target
+    if camera is None:
+        return compare_pose(expected, seen, nominal, target)
+    reseated, told = reseat(expected, nominal, camera, target)
+    return compare_pose(reseated, seen, camera, target, told)
 
 
 def _capture_by_hand(state: SessionState) -> Step:

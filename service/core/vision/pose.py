@@ -22,8 +22,11 @@ ITERATIONS = 30
 SAME_POSE_RAD = 1e-2
 FIRST_STEPS = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 6, 1e-5)
 CLEARLY_WORSE = 4.0  # times the squared error of the best solution
+ROUNDING = 1e-5  # of the cost: where so little is promised and nothing is gained
 MISFIT_PX = 1.0  # rms from which the intrinsics are wrong; corners of live frames are off by 0.3 px at most
 LIKE_RMS = 4.0  # times the least rms, up to which wrong intrinsics may have changed which one is the least
+EXPLAINED_PX = 2.0  # rms below which a camera explains a view, its focal length being held near the given one
+FOCAL_SHARES = (1.0, 1.2, 1.0 / 1.2)  # from where a free focal length is looked for
 FOCAL_SD = 0.2  # of the logarithm of a free focal length, against corners off by MISFIT_PX
 
 
@@ -32,11 +35,13 @@ class PoseEstimate:
     """A pose `T_cam_board`, its reprojection rms, and that of the other solution.
 
     The other's rms is inf where there is none: both closed forms lead to one pose once they are refined.
+    freed: where the intrinsics are wrong, the best pose by a camera of another focal length, and that camera.
     """
 
     pose: Pose
     rms_px: float
     alternative_rms_px: float
+    freed: tuple[Pose, Intrinsics] | None = None
 
     @property
     def ambiguity(self) -> float:
@@ -50,31 +55,32 @@ def estimate_pose(intrinsics: Intrinsics, object_points: Array, image_points: Ar
     Corners that the lens does not reach are left out. Raises PoseUndetermined for fewer than four usable
     corners or where no pose before the camera explains them.
     """
-    rays = unproject(intrinsics, image_points)
-    seen = np.all(np.isfinite(rays), axis=-1)
-    board, pixels = np.asarray(object_points, float)[seen], np.asarray(image_points, float)[seen]
-    if len(board) < CORNERS_NEEDED:
-        raise PoseUndetermined(
-            f"{len(board)} corners are within the reach of the lens and {CORNERS_NEEDED} are needed; "
-            "show the target nearer to the middle of the image.",
-            corners=len(board),
-        )
-    rotations, translations = _closed_form(board, rays[seen])
-    rotations, translations, rms = _refine(intrinsics, rotations, translations, board, pixels)
+    (board, pixels), (rotations, translations) = _starts(intrinsics, object_points, image_points)
+    rotations, translations, rms, _ = _refine(intrinsics, rotations, translations, board, pixels)
     if not np.isfinite(rms.min()):
         raise PoseUndetermined(
             "No pose before the camera explains the corners; check the target and the intrinsics."
         )
-    best = int(np.argmin(rms))
-    if rms[best] > MISFIT_PX and rms.max() < LIKE_RMS * rms[best]:
-        best = _choose_with_free_focal(intrinsics, rotations, translations, board, pixels)
+    best, freed = int(np.argmin(rms)), None
+    if rms[best] > MISFIT_PX:
+        freed = _freed(intrinsics, object_points, image_points)
+        if rms.max() < LIKE_RMS * rms[best]:
+            best = int(np.argmin(np.linalg.norm(rotations - freed[0].rotation, axis=(1, 2))))
     other = len(rms) - 1 - best
     # The norm of a difference of rotations is √8 times the sine of half the angle between them.
     apart = float(np.linalg.norm(rotations[best] - rotations[other])) / np.sqrt(2.0)
     alternative = float(rms[other]) if apart > SAME_POSE_RAD else float("inf")
     return PoseEstimate(
-        Pose(rotation_vector(rotations[best]), translations[best]), float(rms[best]), alternative
+        Pose(rotation_vector(rotations[best]), translations[best]), float(rms[best]), alternative, freed
     )
+
+
+def fit_pose(intrinsics: Intrinsics, start: Pose, object_points: Array, image_points: Array) -> Pose:
+    """Return the pose of least reprojection error near a start, for points as in `estimate_pose`."""
+    rotation, translation, _, _ = _refine(
+        intrinsics, start.rotation[None], start.tvec[None], object_points, image_points
+    )
+    return Pose(rotation_vector(rotation[0]), translation[0])
 
 
 def _closed_form(board: Array, rays: Array) -> tuple[Array, Array]:
@@ -94,12 +100,53 @@ def _closed_form(board: Array, rays: Array) -> tuple[Array, Array]:
     return towards[0].T @ rotation_matrix(turns[..., 0]), shifts[..., 0] @ towards[0]
 
 
-def _choose_with_free_focal(
-    intrinsics: Intrinsics, rotations: Array, translations: Array, board: Array, pixels: Array
-) -> int:
-    """Return which solution (s) is nearest to the best pose of a camera with a free focal length."""
-    freed, _, rms = _refine(intrinsics, rotations, translations, board, pixels, free_focal=True)
-    return int(np.argmin(np.linalg.norm(rotations - freed[np.argmin(rms)], axis=(1, 2))))
+def _freed(intrinsics: Intrinsics, object_points: Array, image_points: Array) -> tuple[Pose, Intrinsics]:
+    """Return the best pose by a camera with a free focal length, and that camera.
+
+    From the given focal length the way may end at the fold of a strongly bent lens; then from others.
+    """
+    least = np.inf
+    best = Pose(np.zeros(3), np.zeros(3)), intrinsics
+    for share in FOCAL_SHARES:
+        camera = _with_focal(intrinsics, share)
+        try:
+            (board, pixels), (turned, moved) = _starts(camera, object_points, image_points)
+        except PoseUndetermined:
+            continue
+        turned, moved, rms, growth = _refine(camera, turned, moved, board, pixels, free_focal=True)
+        i = int(np.argmin(rms))
+        if rms[i] < least:
+            least = float(rms[i])
+            best = Pose(rotation_vector(turned[i]), moved[i]), _with_focal(camera, np.exp(growth[i, 0]))
+        if least < EXPLAINED_PX:
+            break
+    return best
+
+
+def _with_focal(intrinsics: Intrinsics, share: float) -> Intrinsics:
+    """Return the camera with its focal lengths multiplied."""
+    vector = intrinsics.vector
+    vector[:2] *= share
+    return Intrinsics.from_vector(intrinsics.lens, vector, intrinsics.image_size)
+
+
+def _starts(
+    intrinsics: Intrinsics, object_points: Array, image_points: Array
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Return the corners that the lens reaches, board (n, 3) and pixels (n, 2), and the poses that fit them.
+
+    Rotations (s, 3, 3) and translations (s, 3) of one or two. Raises PoseUndetermined for too few corners.
+    """
+    rays = unproject(intrinsics, image_points)
+    seen = np.all(np.isfinite(rays), axis=-1)
+    board, pixels = np.asarray(object_points, float)[seen], np.asarray(image_points, float)[seen]
+    if len(board) < CORNERS_NEEDED:
+        raise PoseUndetermined(
+            f"{len(board)} corners are within the reach of the lens and {CORNERS_NEEDED} are needed; "
+            "show the target nearer to the middle of the image.",
+            corners=len(board),
+        )
+    return (board, pixels), _closed_form(board, rays[seen])
 
 
 def _refine(
@@ -110,8 +157,8 @@ def _refine(
     pixels: Array,
     *,
     free_focal: bool = False,
-) -> tuple[Array, Array, Array]:
-    """Return poses of least reprojection error near the given ones (s), with their rms (s,) px.
+) -> tuple[Array, Array, Array, Array]:
+    """Return poses of least reprojection error near the given ones (s), with their rms (s,) px and growth.
 
     Levenberg–Marquardt on all solutions at once; the rms is inf where no pose is feasible. free_focal: each
     with a focal length of its own, which is held near the given one by FOCAL_SD; it counts in the rms.
@@ -123,10 +170,11 @@ def _refine(
     cost, gradient, information = seen.normal_equations(rotations, translations, growth)
     for _ in range(ITERATIONS):
         step = _damped_step(information, gradient, damping)
-        # One that is clearly worse is only compared with, and may creep for long.
-        slack = np.where(cost > CLEARLY_WORSE * cost.min(), 1e-4, 1e-9)
+        # What is clearly worse is only compared with, and a free focal length hardly matters where it creeps.
+        slack = np.where((cost > CLEARLY_WORSE * cost.min()) | free_focal, 1e-4, 1e-9)
         # Remembered, as the damping of a solution that has settled grows while the other still moves.
-        settled |= (np.sum(step * gradient, axis=1) <= slack * cost) & (damping < 1.0)
+        promised = np.sum(step * gradient, axis=1)
+        settled |= (promised <= slack * cost) & (damping < 1.0)
         if settled.all():
             break
         moved_r, moved_t = rotation_matrix(step[:, :3]) @ rotations, translations + step[:, 3:6]
@@ -136,12 +184,12 @@ def _refine(
         rotations = np.where(better[:, None, None], moved_r, rotations)
         translations = np.where(better[:, None], moved_t, translations)
         growth = np.where(better[:, None], moved_f, growth)
-        settled |= (moved[0] >= cost * (1.0 - 1e-12)) & (damping < 1.0)
+        settled |= (moved[0] >= cost * (1.0 - 1e-12)) & (promised <= ROUNDING * cost)
         cost = np.where(better, moved[0], cost)
         gradient = np.where(better[:, None], moved[1], gradient)
         information = np.where(better[:, None, None], moved[2], information)
         damping = np.where(better, damping * 0.1, damping * 10.0)
-    return rotations, translations, np.sqrt(cost / len(board))
+    return rotations, translations, np.sqrt(cost / len(board)), growth
 
 
 def _damped_step(information: Array, gradient: Array, damping: Array) -> Array:

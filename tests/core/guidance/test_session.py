@@ -17,7 +17,7 @@ from service.core.guidance.actions import (
     SetAutomatic,
     Undo,
 )
-from service.core.guidance.comparison import default_tolerances
+from service.core.guidance.comparison import default_tolerances, reseat
 from service.core.guidance.hints import Hint
 from service.core.guidance.observation import Observation
 from service.core.guidance.session import step
@@ -25,8 +25,10 @@ from service.core.guidance.session_poses import start_session
 from service.core.guidance.session_state import GuidanceSettings, SessionState
 from service.core.guidance.session_view import view
 from service.core.vision.camera import Intrinsics, project
+from service.core.vision.pose import estimate_pose
 from service.core.vision.target_chessboard import Chessboard
-from service.core.vision.transforms import Pose
+from service.core.vision.transforms import Pose, rotation_matrix, rotation_vector
+from tests.core.vision.cameras import WIDE
 
 TARGET = Chessboard(9, 6, 0.025)
 CAMERA = Intrinsics.from_parameters(
@@ -196,3 +198,29 @@ def test_by_hand_only_a_matching_frame_is_captured_without_a_dwell() -> None:
     refused, none = step(elsewhere, ManualCapture(5.2), SETTINGS)
     assert none == ()
     assert view(refused, SETTINGS).refused == "not-matched"
+
+
+@pytest.mark.parametrize("growth", [0.8, 1.2])
+def test_a_wrong_nominal_asks_for_the_pose_that_fills_the_planned_place(growth: float) -> None:
+    vector = WIDE.vector
+    vector[:2] *= growth
+    nominal = Intrinsics.from_vector(WIDE.lens, vector, WIDE.image_size)
+    settings = GuidanceSettings(nominal, TARGET, default_tolerances(WIDE.image_size))
+    tilt = rotation_matrix(np.array([0.4, -0.3, 0.1]))
+    planned = Pose(rotation_vector(tilt), np.array([-0.12, -0.06, 0.3]) - tilt @ TARGET.centre)
+    held_so, told = reseat(planned, nominal, WIDE, TARGET)
+    state, effects = start_session((planned,)), list[Effect]()
+    pixels = project(WIDE, held_so.rotation, held_so.tvec, TARGET.object_points)
+    for i in range(30):
+        found = estimate_pose(nominal, TARGET.object_points, pixels)
+        assert found.freed is not None
+        seen, camera = found.freed
+        now = Observation(0.05 * i, "present", 54, seen, pixels, 1.5, 180.0, i, camera=camera)
+        state, new = step(state, Frame(now), settings)
+        effects += new
+    assert any(isinstance(effect, CaptureFrame) for effect in effects)
+    assert state.difference is not None
+    # What the paper asks of a capture is asked of the place in the picture, whatever camera it is.
+    outer = pixels[list(TARGET.outer_corners)]
+    assert state.difference.corner_px == pytest.approx(np.linalg.norm(outer - told, axis=1).mean(), abs=1.5)
+    assert np.degrees(abs(state.difference.tilt_rad)) < 1.0

@@ -56,6 +56,33 @@ def test_a_wrong_focal_length_does_not_favour_the_wrong_tilt(number: int) -> Non
     assert estimate.ambiguity == 1.0
 
 
+@pytest.mark.parametrize("growth", [0.8, 1.2])
+def test_a_wrong_focal_length_is_found_with_the_pose_where_the_view_tells(growth: float) -> None:
+    vector = WIDE.vector * np.r_[growth, growth, np.ones(7)]
+    nominal = Intrinsics.from_vector(WIDE.lens, vector, WIDE.image_size)
+    told = 0
+    for R, t in zip(*board_poses(WIDE, 40, seed=6), strict=True):
+        pixels = project(WIDE, R, t, BOARD.object_points)
+        found = estimate_pose(nominal, BOARD.object_points, pixels)
+        assert (found.freed is not None) == (found.rms_px > 1.0)
+        # Where the view tells less, the focal length is held near the given one.
+        if found.rms_px > 5.0 and found.freed is not None:
+            pose, camera = found.freed
+            told += 1
+            assert abs(camera.camera_matrix[0, 0] / WIDE.camera_matrix[0, 0] - 1.0) < 0.04
+            assert np.degrees(float(angle_between(R, pose.rotation))) < 2.0
+    assert told > 5
+
+
+def test_the_right_focal_length_is_taken_as_it_is() -> None:
+    rng = np.random.default_rng(7)
+    for R, t in zip(*board_poses(WIDE, 40, seed=7), strict=True):
+        pixels = project(WIDE, R, t, BOARD.object_points) + rng.normal(
+            0.0, 0.3, (len(BOARD.object_points), 2)
+        )
+        assert estimate_pose(WIDE, BOARD.object_points, pixels).freed is None
+
+
 def test_the_refined_pose_is_no_worse_than_opencvs() -> None:
     rng = np.random.default_rng(4)
     for R, t in zip(*board_poses(WIDE, 8, seed=5), strict=True):
