@@ -37,10 +37,14 @@ def is_larger(grid: CornerGrid, target: Chessboard) -> bool:
     return bool(max(rows, columns) > many or min(rows, columns) > few)
 
 
+def has_size(grid: CornerGrid, target: Chessboard) -> bool:
+    """Whether a grid of whole lines has as many as the target."""
+    return sorted(grid.points.shape[:2]) == sorted((target.columns, target.rows))
+
+
 def is_whole(grid: CornerGrid, target: Chessboard) -> bool:
     """Whether a grid of whole lines is the target, each corner of it."""
-    shape = tuple(sorted(grid.points.shape[:2]))
-    return shape == tuple(sorted((target.columns, target.rows))) and bool(grid.known.all())
+    return has_size(grid, target) and bool(grid.known.all())
 
 
 def nearest_whole(grids: list[CornerGrid], target: Chessboard) -> CornerGrid | None:

@@ -65,12 +65,26 @@ def grow_grid(
         if not grid.points.size:
             break
         padded = replace(grid, points=np.pad(grid.points, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan))
-        guesses = np.where(padded.known[..., None], np.nan, predict(padded.points))
-        grown = _prove(blurred, padded, guesses, refine)
+        grown = _filled(blurred, padded, refine)
         if grown.known.sum() == grid.known.sum():
             break
         grid = trim(grown)
     return grid
+
+
+def fill_grid(blurred: FloatImage, grid: CornerGrid, rounds: int, refine: Refiner) -> CornerGrid:
+    """Return the grid with the gaps in its rows and columns filled from their edges, `rounds` corners deep."""
+    for _ in range(rounds):
+        filled = _filled(blurred, grid, refine)
+        if filled.known.sum() == grid.known.sum():
+            break
+        grid = filled
+    return grid
+
+
+def _filled(blurred: FloatImage, grid: CornerGrid, refine: Refiner) -> CornerGrid:
+    """Return the grid with those unknown corners that their neighbours predict and the image confirms."""
+    return _prove(blurred, grid, np.where(grid.known[..., None], np.nan, predict(grid.points)), refine)
 
 
 def predict(points: Array) -> Array:

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from service.core.errors import TargetSpecInvalid
-from service.core.vision.board import is_larger, is_whole, order_corners
+from service.core.vision.board import has_size, is_larger, is_whole, order_corners
 from service.core.vision.corner_candidates import Corners
 from service.core.vision.corner_grid import CornerGrid, keep_squares, link_corners, number_corners
 from service.core.vision.detection import check_grey_image
-from service.core.vision.grid_growth import grow_grid
+from service.core.vision.grid_growth import fill_grid, grow_grid
 from service.core.vision.live_choice import choose_grid, is_sure_and_larger, may_be_a_board
 from service.core.vision.live_circles import detect_live_circles
 from service.core.vision.live_coded import detect_live_coded
@@ -36,6 +36,7 @@ __all__ = ["BoardKind", "LiveDetection", "LiveWorkspace", "detect_live"]
 GRIDS = 3  # linked grids that are looked into, the one with most contrast first
 SHARE_OF_A_RIVAL = 0.6  # of the target's corners that a second board must show before it is grown
 ROUNDS = 1  # of growth, by a line on each side
+GAP_ROUNDS = 3  # of filling gaps, by a corner from each side
 DISC_PX = 2  # of the last saddle fit
 PARTIAL_CORNERS = 20  # fewer occur by chance on a patterned background
 
@@ -101,6 +102,9 @@ def _grow_grids(blurred: FloatImage, corners: Corners, target: Chessboard) -> li
         if any(is_whole(other, target) for other in grown) and grid.known.sum() < SHARE_OF_A_RIVAL * needed:
             continue
         lines = whole_lines(keep_squares(grow_grid(blurred, keep_squares(grid), ROUNDS, refine_on_pixels)))
+        if has_size(lines, target) and not is_whole(lines, target):
+            # A corner of the board that glare has washed out may be several corners deep.
+            lines = keep_squares(fill_grid(blurred, lines, GAP_ROUNDS, refine_on_pixels))
         grown.append(without_rims(blurred, lines) if is_larger(lines, target) else lines)
     return grown
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from service.core.vision.corner_grid import CornerGrid
-from service.core.vision.grid_growth import complete_grid, measure_steps, predict
+from service.core.vision.grid_growth import complete_grid, fill_grid, measure_steps, predict
+from service.core.vision.live_corners import refine_on_pixels
 from service.core.vision.sampling import smooth
 from service.core.vision.transforms import Array
 from tests.core.vision.drawn_board import draw_board
@@ -34,6 +35,17 @@ def test_missing_corners_are_found_again(hole: tuple[slice | int, slice | int]) 
     grown = complete_grid(BLURRED, without(WHOLE, hole), rounds=9)
     assert grown.points.shape == (6, 9, 2)
     assert largest_error_px(grown, WHOLE.points) < 0.3
+
+
+def test_a_gap_is_filled_corner_by_corner_and_nothing_beyond_it() -> None:
+    washed_out = without(WHOLE, (slice(3), slice(3)))
+    filled = fill_grid(BLURRED, washed_out, 3, refine_on_pixels)
+    assert filled.points.shape == (6, 9, 2)
+    assert largest_error_px(filled, WHOLE.points) < 0.5
+    assert not fill_grid(BLURRED, washed_out, 1, refine_on_pixels).known.all()
+    assert fill_grid(
+        BLURRED, replace(WHOLE, points=WHOLE.points[:, 1:]), 3, refine_on_pixels
+    ).known.shape == (6, 8)
 
 
 def test_a_corner_in_the_wrong_place_is_put_right() -> None:
