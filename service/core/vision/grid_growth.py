@@ -73,7 +73,7 @@ def grow_grid(
 
 
 def fill_grid(blurred: FloatImage, grid: CornerGrid, rounds: int, refine: Refiner) -> CornerGrid:
-    """Return the grid with the gaps in its rows and columns filled from their edges, `rounds` corners deep."""
+    """Return the grid with gaps in its rows and columns filled from their edges, `rounds` corners deep."""
     for _ in range(rounds):
         filled = _filled(blurred, grid, refine)
         if filled.known.sum() == grid.known.sum():
