@@ -21,7 +21,7 @@ from service.core.vision.multi_start import (
     solve_from_nominal,
     solve_from_starts,
 )
-from service.core.vision.normal_equations import NormalEquations, reduce, unit_scale
+from service.core.vision.normal_equations import NormalEquations, Reduced, reduce, unit_scale
 from service.core.vision.transforms import Array, Pose, rotation_vector
 from service.core.vision.view_stack import View, stack_views
 
@@ -46,7 +46,7 @@ class CalibrationResult:
 
     covariance: (p, p) in the order of parameter_names(lens), σ²(JᵀJ)⁻¹ with the fitted σ, zero where fixed.
     poses: `T_cam_board` per view. residuals: detected − projected (n, 2) px per view. equations: those of the
-    free parameters at the optimum, view by view.
+    free parameters at the optimum, view by view; reduced: without the poses.
     sigma_px: √(Σe²/(2N − free unknowns)). rms_px: √(Σ|e|²/N). agreement_px: the largest difference at the
     corners between the ends of the starts, inf where one of them failed. converged: the optimum is proven and
     the starts agree.
@@ -58,6 +58,7 @@ class CalibrationResult:
     poses: tuple[Pose, ...]
     residuals: tuple[Array, ...]
     equations: NormalEquations
+    reduced: Reduced
     sigma_px: float
     rms_px: float
     starts: tuple[StartReport, ...]
@@ -152,9 +153,10 @@ def _result(problem: Problem, best: Fit, ends: Ends, fixed: tuple[str, ...]) -> 
     variance = float(best.equations.cost) / max(stack.measurements - unknowns, 1)
     pixels = project(intrinsics, estimate.rotations, estimate.translations, stack.object_points)
     errors = stack.image_points - pixels
+    cofactor, reduced = _cofactor(problem, best)
     return CalibrationResult(
         intrinsics=intrinsics,
-        covariance=variance * _cofactor(problem, best),
+        covariance=variance * cofactor,
         fixed=fixed,
         poses=tuple(
             Pose(*pair)
@@ -162,6 +164,7 @@ def _result(problem: Problem, best: Fit, ends: Ends, fixed: tuple[str, ...]) -> 
         ),
         residuals=tuple(error[:count] for error, count in zip(errors, stack.counts, strict=True)),
         equations=best.equations,
+        reduced=reduced,
         sigma_px=float(np.sqrt(variance)),
         rms_px=_rms(problem, best),
         starts=tuple(_report(problem, name, fit) for name, fit in ends.fits.items()),
@@ -182,17 +185,18 @@ def _rms(problem: Problem, fit: Fit) -> float:
     return float(np.sqrt(float(fit.equations.cost) / sum(problem.stack.counts)))
 
 
-def _cofactor(problem: Problem, fit: Fit) -> Array:
-    """Return (JᵀJ)⁻¹ of the parameters (p, p), zero where fixed, or raise DegenerateViews."""
-    cofactor = np.zeros((len(fit.estimate.vector),) * 2)
+def _cofactor(problem: Problem, fit: Fit) -> tuple[Array, Reduced]:
+    """Return (JᵀJ)⁻¹ of the parameters (p, p), zero where fixed, and its parts, or raise DegenerateViews."""
+    cofactor = np.zeros((len(parameter_names(problem.lens)),) * 2)
     try:
-        cofactor[np.ix_(problem.free, problem.free)] = _inverse(reduce(fit.equations).information.sum(axis=0))
+        reduced = reduce(fit.equations)
+        cofactor[np.ix_(problem.free, problem.free)] = _inverse(reduced.information.sum(axis=0))
     except np.linalg.LinAlgError as error:
         raise DegenerateViews(
             "The views do not determine all parameters; add views with the target tilted in different "
             "directions, near and far, all over the image, or fix the parameters that are not needed."
         ) from error
-    return cofactor
+    return cofactor, reduced
 
 
 def _inverse(information: Array) -> Array:

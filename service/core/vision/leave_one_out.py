@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from service.core.vision.calibration import CalibrationResult
 from service.core.vision.camera import parameter_names
-from service.core.vision.normal_equations import Reduced, reduce, unit_scale
+from service.core.vision.normal_equations import Reduced, unit_scale
 from service.core.vision.transforms import Array
 
 LEAST_EIGENVALUE = 1e-13
@@ -43,7 +43,7 @@ def leave_one_out(result: CalibrationResult) -> LeaveOneOut:
     """Return the results without each view of a solve."""
     vector, squared_errors = result.intrinsics.vector, result.equations.squared_errors
     free = [i for i, name in enumerate(parameter_names(result.intrinsics.lens)) if name not in result.fixed]
-    reduced = reduce(result.equations)
+    reduced = result.reduced
     steps = _steps_without(reduced)
     vectors = np.tile(vector, (len(steps), 1))
     vectors[:, free] += steps

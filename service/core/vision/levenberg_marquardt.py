@@ -69,11 +69,15 @@ def minimise(
     is not feasible: a corner is behind the camera or beyond the fold.
     """
     task = _Task(lens, stack, free, distance_sd, may_fold)
-    able = [(i, start) for i, start in enumerate(starts) if start is not None and task.allows(start)]
     fits: list[Fit | None] = [None] * len(starts)
+    given = [i for i, start in enumerate(starts) if start is not None]
+    if not given:
+        return fits
+    here = side_by_side([start for start in starts if start is not None])
+    able = np.flatnonzero(task.allows(here)).tolist()
     if able:
-        walkers = [_Walker(i, damping) for i, _ in able]
-        for number, end in _descend(task, side_by_side([start for _, start in able]), walkers, iterations):
+        walkers = [_Walker(given[i], damping) for i in able]
+        for number, end in _descend(task, rows(here, able), walkers, iterations):
             is_before_fold = not may_fold or is_feasible(lens, end.estimate, stack.visible_points)
             fits[number] = end if is_before_fold else None
     return fits

@@ -111,7 +111,7 @@ class PerspectiveLens:
         Newton's method on the lens's own Jacobian, which converges in the image corner where a fixed-point
         iteration of five steps (OpenCV's default) is up to a pixel off.
         """
-        limit = self.reach_of(k)
+        limit = math.inf if self.grows_up_to(k, FARTHEST) else self.reach_of(k)
         # No direction leads there: the iterations would go on to their last for nothing.
         image = np.where(self._is_beyond(image, k, limit)[..., None], np.nan, image)
         x, y, good = self._newton(image, k, limit)

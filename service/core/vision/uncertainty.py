@@ -22,7 +22,7 @@ from service.core.vision.transforms import Array, rotation_matrix
 
 GRID = (12, 8)
 ROTATION_STEPS = 8
-SMALL_TURN_RAD = 1e-5
+SMALL_TURN_RAD = 5e-5  # its square moves a pixel by about 1e-6 px
 
 
 @dataclass(frozen=True)
