@@ -9,8 +9,9 @@ export function QuestionBox({ kiosk }: { kiosk: Kiosk }): JSX.Element | null {
   const question = kiosk.question.value;
   const { run } = kiosk.state.value;
   if (question === null || run === null) return null;
+  // A dialog says that it is closed a moment after it is: by then another question may be open.
   const leave = (): void => {
-    kiosk.question.value = null;
+    if (kiosk.question.value === question) kiosk.question.value = null;
   };
   if (question.kind === "abort") {
     return (

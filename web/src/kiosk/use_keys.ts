@@ -35,6 +35,12 @@ export function useKeys(kiosk: Kiosk): void {
 }
 
 function command(kiosk: Kiosk, event: KeyboardEvent): void {
+  if (event.key === "Escape" && kiosk.question.value !== null) {
+    // The browser closes a dialog a moment later, and a key pressed meanwhile would be lost.
+    event.preventDefault();
+    kiosk.question.value = null;
+    return;
+  }
   const press = {
     key: event.key,
     isRepeated: event.repeat,
