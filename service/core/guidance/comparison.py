@@ -146,11 +146,12 @@ def reseat(expected: Pose, nominal: Intrinsics, camera: Intrinsics, target: Targ
 
     And where its outer corners (4, 2) px are to be: that place needs not be one of the other camera's.
     """
-    told = project(nominal, expected.rotation, expected.tvec, target.object_points)
+    outer = target.object_points[list(target.outer_corners)]
+    told = project(nominal, expected.rotation, expected.tvec, outer)
     nearer = camera.camera_matrix[0, 0] / nominal.camera_matrix[0, 0]
     centre = expected.rotation @ target.centre + expected.tvec
     start = Pose(expected.rvec, expected.tvec + centre * (nearer - 1.0))
-    return fit_pose(camera, start, target.object_points, told), told[list(target.outer_corners)]
+    return fit_pose(camera, start, outer, told), told
 
 
 def is_match(difference: PoseDifference, tolerances: Tolerances) -> bool:
