@@ -184,7 +184,9 @@ def _refine(
         rotations = np.where(better[:, None, None], moved_r, rotations)
         translations = np.where(better[:, None], moved_t, translations)
         growth = np.where(better[:, None], moved_f, growth)
-        settled |= (moved[0] >= cost * (1.0 - 1e-12)) & (promised <= ROUNDING * cost)
+        # A free focal length overshoots at first; of a plain pose a step in vain is the last but rounding.
+        vain = (promised <= ROUNDING * cost) if free_focal else (damping < 1.0)
+        settled |= (moved[0] >= cost * (1.0 - 1e-12)) & vain
         cost = np.where(better, moved[0], cost)
         gradient = np.where(better[:, None], moved[1], gradient)
         information = np.where(better[:, None, None], moved[2], information)
