@@ -28,12 +28,12 @@ def blind_start(lens: str, image_size: tuple[int, int], stack: ViewStack) -> Est
     block, across = _radial_alignment(stack, from_centre)
     tilted = _tilted(block)
     seen = _Depths.of(stack, from_centre, tilted, across)
-    each = seen.solved(seen.A, seen.b)
+    each = _solved(seen.A, seen.b)
     shown = are_shown(lens, seen.translations(each, across))
     errors = np.where((each[..., 0] > 0) & shown, seen.errors(each), np.inf)
     better = np.where(errors[0] <= errors[1], 0, 1), np.arange(len(block))
     chosen = seen.chosen(better)
-    both = chosen.solved(chosen.A.sum(axis=0), chosen.b.sum(axis=0))
+    both = _solved(chosen.A.sum(axis=0), chosen.b.sum(axis=0))
     translations = chosen.translations(both, across)
     if not (np.isfinite(both).all() and both[0] > 0 and np.all(are_shown(lens, translations))):
         return None
@@ -133,11 +133,6 @@ class _Depths:
         parts = (self.A, self.b, self.squares, self.depth, self.by_shared)
         return _Depths(self.unit_px, *(part[index] for part in parts))
 
-    def solved(self, A: Array, b: Array) -> Array:
-        """Return a and b (..., 2) of normal equations."""
-        little = 1e-15 * np.trace(A, axis1=-2, axis2=-1)[..., None, None] * np.eye(2)
-        return np.asarray(np.linalg.solve(A + little, b[..., None])[..., 0])
-
     def errors(self, shared: Array) -> Array:
         """Return the squared errors (..., v) at a and b (..., v, 2)."""
         curved = (self.A @ shared[..., None])[..., 0] - 2.0 * self.b
@@ -149,3 +144,9 @@ class _Depths:
         translations[..., :2] = across
         translations[..., 2] = self.depth - np.sum(self.by_shared * shared, axis=-1)
         return translations
+
+
+def _solved(A: Array, b: Array) -> Array:
+    """Return the focal length and the bend (..., 2) of normal equations A (..., 2, 2), b (..., 2)."""
+    little = 1e-15 * np.trace(A, axis1=-2, axis2=-1)[..., None, None] * np.eye(2)
+    return np.asarray(np.linalg.solve(A + little, b[..., None])[..., 0])

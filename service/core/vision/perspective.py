@@ -1,6 +1,6 @@
-"""Lens models that distort the ideal image plane z = 1: all that follows from a distortion function.
+"""Lens models that distort the ideal image plane z = 1: all that follows from a radial factor.
 
-They end before 90 degrees from the axis, where that plane ends. Not here: a distortion (`lens_*`).
+They end before 90 degrees from the axis, where that plane ends. Not here: such a factor (`lens_*`).
 """
 
 import math

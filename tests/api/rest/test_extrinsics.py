@@ -39,15 +39,20 @@ def pose_json(pose: Pose) -> dict[str, Any]:
     return {"rvec": pose.rvec.tolist(), "tvec": pose.tvec.tolist()}
 
 
-@pytest.fixture
-def run_id(plant: Plant) -> str:
-    """An open run with its poses taken, at a station with a fixture."""
+def taken_run(plant: Plant) -> str:
+    """Return an open run with its poses taken, at a station with a fixture."""
     plant.publish_sku(mounting=pose_json(T_VEHICLE_CAM))
     station(plant)
     run_id = plant.open_run(station="cal1")
     for index in range(len(pose_set().poses)):
         plant.expect(201, plant.upload(run_id, index))
     return run_id
+
+
+@pytest.fixture
+def run_id(plant: Plant) -> str:
+    """An open run with its poses taken, at a station with a fixture."""
+    return taken_run(plant)
 
 
 def test_a_picture_of_the_fixed_target_gives_the_place_in_the_vehicle(plant: Plant, run_id: str) -> None:

@@ -12,7 +12,15 @@ from service.storage.models import CalibrationRow, CaptureRow, OutboxEventRow, R
 from service.storage.placed import LaterExtrinsicsRow
 from service.storage.words import Role
 from service.usecases.later_extrinsics import recompute_later
-from tests.api.rest.test_extrinsics import FIXTURE, PICTURE, SEEN, T_VEHICLE_CAM, pose_json, station
+from tests.api.rest.test_extrinsics import (
+    FIXTURE,
+    PICTURE,
+    SEEN,
+    T_VEHICLE_CAM,
+    pose_json,
+    station,
+    taken_run,
+)
 from tests.plant import JsonObject, Plant, encode, pose_set, problem, shown_at
 
 MORE = tuple(encode(shown_at(SEEN, seed)) for seed in (78, 79))
@@ -63,11 +71,7 @@ def test_pictures_of_a_fixed_target_alone_give_the_place_in_the_vehicle(plant: P
 
 def test_it_is_what_the_run_itself_would_have_found(small_plant: Plant) -> None:
     """The same picture within the run and after it: one estimate, one covariance."""
-    small_plant.publish_sku(mounting=pose_json(T_VEHICLE_CAM))
-    station(small_plant)
-    run_id = small_plant.open_run(station="cal1")
-    for index in range(len(pose_set().poses)):
-        small_plant.expect(201, small_plant.upload(run_id, index))
+    run_id = taken_run(small_plant)
     headers = {"Content-Type": "image/png"}
     path = f"/runs/{run_id}/captures?role=extrinsics"
     small_plant.expect(201, small_plant.call("POST", path, content=PICTURE, headers=headers))
