@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from service.core.vision.calibration_start import are_shown, normalised_board, plain_vector
+from service.core.vision.calibration_start import are_shown, plain_vector
 from service.core.vision.camera import LENSES
 from service.core.vision.normal_equations import Estimate
 from service.core.vision.transforms import Array, skew, turn_points
@@ -53,7 +53,7 @@ def _radial_alignment(stack: ViewStack, from_centre: Array) -> tuple[Array, Arra
 
     A corner and its image lie on one ray from the centre: v (r11 X + r12 Y + tx) = u (r21 X + r22 Y + ty).
     """
-    centre, size, board = normalised_board(stack)
+    centre, size, board = stack.normalised
     plane = np.concatenate([board, np.ones_like(board[..., :1])], axis=-1)
     unit = from_centre / np.abs(from_centre).max()
     rows = np.concatenate([unit[..., 1:] * plane, -unit[..., :1] * plane], axis=-1)

@@ -65,13 +65,13 @@ def are_shown(lens: str, translations: Array) -> NDArray[np.bool_]:
 
 def _poses_in_plane(stack: ViewStack, ideal: Array) -> tuple[Array, Array]:
     """Return rotations (v, 3, 3), translations (v, 3) m of ideal coordinates (v, n, 2)."""
-    centre, scale, board = normalised_board(stack)
+    centre, scale, board = stack.normalised
     plane = np.concatenate([board, np.ones_like(board[..., :1])], axis=-1) * stack.weights[..., None]
     rows = np.zeros((len(board), 2, board.shape[1], 9))
     rows[:, 0, :, :3] = rows[:, 1, :, 3:6] = plane
     rows[:, 0, :, 6:], rows[:, 1, :, 6:] = -ideal[..., :1] * plane, -ideal[..., 1:] * plane
     H = _with_last_one(rows.reshape(len(board), -1, 9)).reshape(-1, 3, 3)
-    length = (np.linalg.norm(H[..., 0], axis=-1) + np.linalg.norm(H[..., 1], axis=-1)) / 2.0
+    length = np.sqrt(np.sum(H[..., :2] ** 2, axis=1)).mean(axis=-1)
     H = H / length[:, None, None]
     H[..., 2] = H[..., 2] * scale[:, None]
     rotations = _orthonormal(H[..., 0], H[..., 1])
@@ -122,14 +122,6 @@ def plain_vector(lens: str, focal: float, image_size: tuple[int, int]) -> Array:
     vector = np.zeros(len(parameter_names(lens)))
     vector[:4] = focal, focal, (image_size[0] - 1) / 2.0, (image_size[1] - 1) / 2.0
     return vector
-
-
-def normalised_board(stack: ViewStack) -> tuple[Array, Array, Array]:
-    """Return the boards' centres (v, 2) m, sizes (v,) m, and corners (v, n, 2) in those terms."""
-    plane = stack.object_points[..., :2]
-    centre = plane.mean(axis=1)
-    scale = np.sqrt(np.mean(np.sum((plane - centre[:, None]) ** 2, axis=-1), axis=1))
-    return centre, scale, (plane - centre[:, None]) / scale[:, None, None]
 
 
 def _with_last_one(rows: Array) -> Array:

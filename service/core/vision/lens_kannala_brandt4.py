@@ -12,7 +12,6 @@ from service.core.vision.polynomial import is_positive_up_to, smallest_positive_
 from service.core.vision.transforms import Array
 
 HALVINGS = 60
-TURNING = np.array([3.0, 5.0, 7.0, 9.0])
 NEAR_AXIS = 1e-8  # rad; the series about the axis is exact to rounding there
 
 
@@ -85,9 +84,9 @@ class KannalaBrandt4:
         return np.zeros(4)
 
 
-def _turning(k: Array) -> Array:
+def _turning(k: Array) -> list[float]:
     """Return dθd/dθ of k (4,) as a polynomial in θ²."""
-    return np.array([1.0, *(TURNING * k)])
+    return [1.0, *(power * one for power, one in zip((3.0, 5.0, 7.0, 9.0), k.tolist(), strict=True))]
 
 
 def _factor(t: Array, k: Array) -> Array:

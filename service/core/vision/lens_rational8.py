@@ -13,11 +13,6 @@ from service.core.vision.perspective import PerspectiveLens
 from service.core.vision.polynomial import is_positive_up_to, smallest_positive_root
 from service.core.vision.transforms import Array
 
-# What a product N_i D_j of coefficients adds to the coefficient of t^(i + j): 1 + 2 i − 2 j.
-TURNING = np.array(
-    [[(1.0 + 2 * i - 2 * j) * (i + j == n) for i in range(4) for j in range(4)] for n in range(7)]
-)
-
 
 def radial(r2: Array, k: Array) -> Array:
     """Return the radial factor (...) of r² (...); k: (8,) or broadcastable (..., 8)."""
@@ -62,14 +57,19 @@ def of_division(coefficient: float) -> Array:
     return np.array([bend, 0.0, 0.0, 0.0, 0.0, 2.0 * bend, 0.0, 0.0])
 
 
-def _turning_and_below(k: Array) -> tuple[Array, Array]:
+def _turning_and_below(k: Array) -> tuple[list[float], list[float]]:
     """Return polynomials in t = r², one at zero, whose first positive root ends the growth.
 
-    With the quotient N/D, r N/D turns where (N + 2t N′)D − 2t N D′ has one, and ends where D has one.
+    With the quotient N/D, r N/D turns where (N + 2t N′)D − 2t N D′ has one, and ends where D has one. To the
+    coefficient of t^(i + j) a product N_i D_j of coefficients adds 1 + 2 i − 2 j times itself.
     """
-    N, D = np.ones(4), np.ones(4)
-    N[1:3], N[3], D[1:] = k[:2], k[4], k[5:]
-    return TURNING @ (N[:, None] * D).ravel(), D
+    k1, k2, _, _, k3, k4, k5, k6 = k.tolist()
+    turning = [0.0] * 7
+    below = [1.0, k4, k5, k6]
+    for i, n in enumerate((1.0, k1, k2, k3)):
+        for j, d in enumerate(below):
+            turning[i + j] += (1 + 2 * i - 2 * j) * n * d
+    return turning, below
 
 
 LENS = PerspectiveLens(
@@ -80,6 +80,6 @@ LENS = PerspectiveLens(
     monotone_radius,
     grows_to,
     of_division,
-    weak=("k6",),
+    weak=("k3", "k6"),
     sweep_hfov_deg=(40.0, 60.0, 90.0, 120.0, 140.0),
 )

@@ -12,6 +12,7 @@ is the step's length in standard deviations, and by how much steps shrink tells 
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,7 @@ from service.core.vision.view_stack import ViewStack
 
 DISTANCE_TO_OPTIMUM_SD = 1e-3
 SMALLEST_SIGMA_PX = 1e-7
-FIRST_DAMPING = 1e-4
+FIRST_DAMPING = 3e-5
 LARGEST_DAMPING = 1e9
 LEAST_DAMPING = 1e-6  # as long as no step was refused, less is none
 FIRST_RAISED = 1e-9  # where there was none
@@ -41,13 +42,21 @@ SURE_SHRINKAGE = 0.25  # of one step to the next: what shrinks so fast goes on t
 class Fit:
     """Where a solve ended, after how many steps, and whether that is proven to be an optimum.
 
-    The step that proved it is taken: equations are what a linear model makes of those before it.
+    The step that proved it is taken. Where that led beyond the fold, the optimum is at the fold itself;
+    `stood`, before the step, is feasible.
     """
 
     estimate: Estimate
-    equations: NormalEquations
+    stood: Estimate
+    linearised: NormalEquations
+    step: Step | None
     iterations: int
     converged: bool
+
+    @cached_property
+    def equations(self) -> NormalEquations:
+        """The equations at the end: what a linear model makes of those before the step."""
+        return self.linearised.after(self.step) if self.step else self.linearised
 
 
 def minimise(
@@ -156,10 +165,11 @@ def _descend(
         left = []
         for i, walker in enumerate(walkers):
             if is_proven[i]:
-                after = row(equations, i).after(row(step, i))
-                ends.append((walker.number, Fit(row(moved, i), after, iteration, converged=True)))
+                taken = row(step, i), iteration
+                end = Fit(row(moved, i), row(here, i), row(equations, i), *taken, converged=True)
+                ends.append((walker.number, end))
             elif walker.damping > LARGEST_DAMPING:
-                ends.append((walker.number, Fit(row(here, i), row(equations, i), iteration, converged=False)))
+                ends.append((walker.number, _unproven(here, equations, i, iteration)))
             else:
                 left.append(i)
         if not left:
@@ -171,8 +181,15 @@ def _descend(
         here, equations, gains = _advance(task, here, equations, moved, step.promised)
         for walker, gain, length_sd in zip(walkers, gains.tolist(), lengths_sd.tolist(), strict=True):
             walker.learn(gain, length_sd)
-    rest = [Fit(row(here, i), row(equations, i), iterations, converged=False) for i in range(len(walkers))]
-    return ends + [(walker.number, fit) for walker, fit in zip(walkers, rest, strict=True)]
+    return ends + [
+        (walker.number, _unproven(here, equations, i, iterations)) for i, walker in enumerate(walkers)
+    ]
+
+
+def _unproven(here: Estimate, equations: NormalEquations, index: int, iterations: int) -> Fit:
+    """Return where one of the solves stands, as its end."""
+    stands = row(here, index)
+    return Fit(stands, stands, row(equations, index), None, iterations, converged=False)
 
 
 def _steps(

@@ -6,9 +6,9 @@ would be the same; where they are not, each start is solved on all corners. Not 
 (`calibration_start`), what becomes of the ends (`calibration`).
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import combinations
 
 import numpy as np
@@ -26,7 +26,7 @@ from service.core.vision.view_stack import ViewStack
 AGREEMENT_PX = 0.05
 THINNED_CORNERS = 16
 # The optimum of a few corners is itself several sd of all unknowns away from that of all corners.
-COARSE_DISTANCE_SD = 0.1
+COARSE_DISTANCE_SD = 0.3
 # On the way an estimate is shown, and must come soon: where it takes longer, too few views determine it.
 QUICK_STEPS = 15
 QUICK_DISTANCE_SD = 0.01
@@ -44,11 +44,18 @@ class Problem:
     free: NDArray[np.intp]
     nominal: Intrinsics | None
 
-    @property
+    @cached_property
+    def weak(self) -> NDArray[np.intp]:
+        """The free parameters that a few corners hardly determine."""
+        return np.array([i for i in self.free if self._is_weak(i)], dtype=np.intp)
+
+    @cached_property
     def firm(self) -> NDArray[np.intp]:
-        """The free parameters that a few corners determine."""
-        weak = [i for i, name in enumerate(parameter_names(self.lens)) if name in LENSES[self.lens].weak]
-        return np.setdiff1d(self.free, weak)
+        """The other free parameters."""
+        return np.array([i for i in self.free if not self._is_weak(i)], dtype=np.intp)
+
+    def _is_weak(self, index: int) -> bool:
+        return parameter_names(self.lens)[index] in LENSES[self.lens].weak
 
     def intrinsics(self, vector: Array) -> Intrinsics:
         """Return the intrinsics of a parameter vector (p,)."""
@@ -74,6 +81,9 @@ def solve_from_starts(problem: Problem) -> Ends:
     if problem.nominal is None:
         end, *_ = _coarse(problem, thinned, [blind])
         return _finish(problem, {"sweep": _sweep(problem, thinned), "blind": end})
+    if blind is not None:
+        # A few corners leave them where they are: elsewhere, ends of one optimum would differ by them.
+        blind.vector[problem.weak] = problem.nominal.vector[problem.weak]
     nominal, end = _coarse(problem, thinned, [nominal_start(problem.nominal, thinned), blind])
     ends = _finish(problem, {"nominal": nominal, "blind": end})
     if ends.agreement_px <= AGREEMENT_PX:
@@ -85,10 +95,9 @@ def solve_from_nominal(problem: Problem, nominal: Intrinsics) -> Ends:
     """Return the end of the start `nominal` alone, near enough to be shown; with nothing to agree with it."""
     thinned = problem.stack.thinned(THINNED_CORNERS)
     start = _held(problem, nominal_start(nominal, thinned))
-    quick = partial(minimise, problem.lens, iterations=QUICK_STEPS)
-    (coarse,) = quick(thinned, [start], problem.firm, distance_sd=COARSE_DISTANCE_SD)
-    near = coarse.estimate if coarse else None
-    (fine,) = quick(problem.stack, [near], problem.free, damping=0.0, distance_sd=QUICK_DISTANCE_SD)
+    quick = partial(minimise, iterations=QUICK_STEPS)
+    (coarse,) = quick(problem.lens, thinned, [start], problem.firm, distance_sd=COARSE_DISTANCE_SD)
+    (fine,) = _fine(problem, [coarse], partial(quick, distance_sd=QUICK_DISTANCE_SD))
     return Ends({"nominal": _counted(fine, coarse)}, float("inf"))
 
 
@@ -147,10 +156,17 @@ def _finish(problem: Problem, coarse: Mapping[str, Fit | None]) -> Ends:
     return Ends(fits, _largest_difference(problem, fits))
 
 
-def _fine(problem: Problem, near: Sequence[Fit | None]) -> list[Fit | None]:
-    """Return the ends on all corners; None where the lens cannot show them all from there."""
-    starts = [fit.estimate if fit else None for fit in near]
-    return minimise(problem.lens, problem.stack, starts, problem.free, damping=0.0)
+def _fine(
+    problem: Problem, near: Sequence[Fit | None], solver: Callable[..., list[Fit | None]] = minimise
+) -> list[Fit | None]:
+    """Return the ends on all corners from those on a few; None where there is none.
+
+    solver: `minimise`, with options of its own.
+    """
+    solve = partial(solver, problem.lens, problem.stack, free=problem.free, damping=0.0)
+    ends = solve([fit.estimate if fit else None for fit in near])
+    beyond = [fit.stood if fit and not end else None for fit, end in zip(near, ends, strict=True)]
+    return [end or other for end, other in zip(ends, solve(beyond), strict=True)] if any(beyond) else ends
 
 
 def _counted(fit: Fit | None, coarse: Fit | None) -> Fit | None:

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 TINY_RAD = 1e-8
+IDENTITY = np.eye(3)
+CROSS = np.cross(IDENTITY, IDENTITY[:, None]).reshape(3, 9)  # v @ CROSS is the matrix of v ×, row by row
 
 
 @dataclass(frozen=True)
@@ -59,26 +61,20 @@ def invert(T_ab: Pose) -> Pose:
 
 def skew(v: Array) -> Array:
     """Return the cross-product matrices (..., 3, 3) of vectors (..., 3)."""
-    K = np.zeros((*v.shape[:-1], 3, 3))
-    K[..., 0, 1], K[..., 0, 2], K[..., 1, 2] = -v[..., 2], v[..., 1], -v[..., 0]
-    return K - np.swapaxes(K, -1, -2)
+    return np.asarray((v @ CROSS).reshape(*v.shape, 3))
 
 
 def rotation_matrix(rvec: Array) -> Array:
     """Return rotation matrices (..., 3, 3) of rotation vectors (..., 3), rad (Rodrigues' formula)."""
     rvec = np.asarray(rvec, dtype=np.float64)
-    square = np.einsum("...i,...i->...", rvec, rvec)
-    angle = np.maximum(np.sqrt(square), TINY_RAD)
-    # sin θ / θ and (1 − cos θ) / θ²; to rounding their limits for an angle of almost nothing.
+    # To rounding, the factors of an angle of almost nothing are their limits.
+    angle = np.maximum(np.sqrt(np.einsum("...i,...i->...", rvec, rvec)), TINY_RAD)
     half = np.sin(0.5 * angle) / angle
-    a, b = np.sin(angle) / angle, 2.0 * half * half
-    R = np.asarray(b[..., None, None] * (rvec[..., :, None] * rvec[..., None, :]))
-    np.einsum("...ii->...i", R)[...] += (1.0 - b * square)[..., None]
-    turned = a[..., None] * rvec
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        R[..., i, j] -= turned[..., k]
-        R[..., j, i] += turned[..., k]
-    return R
+    K = skew(rvec)
+    R = (np.sin(angle) / angle)[..., None, None] * K
+    R += (2.0 * half * half)[..., None, None] * (K @ K)
+    R += IDENTITY
+    return np.asarray(R)
 
 
 def turn_points(R: Array, points: Array) -> Array:

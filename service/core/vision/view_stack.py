@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,7 +33,7 @@ class View:
 class ViewStack:
     """Padded views: object_points (v, n, 3) m, image_points (v, n, 2) px, weights (v, n), counts (v,).
 
-    visible_points (v, m, 3) m: those that a camera must be able to show, thinned or not.
+    visible_points (v, m, 3) m: those by which to tell whether a camera shows them all, thinned or not.
     """
 
     object_points: Array
@@ -51,9 +52,19 @@ class ViewStack:
         """Whether any corner counts for other than one."""
         return bool(np.any(self.weights != 1.0))
 
+    @cached_property
+    def normalised(self) -> tuple[Array, Array, Array]:
+        """The boards' centres (v, 2) m, sizes (v,) m, and corners (v, n, 2) in those terms."""
+        plane = self.object_points[..., :2]
+        centre = plane.mean(axis=1)
+        corners = plane - centre[:, None]
+        size = np.sqrt(np.einsum("vni,vni->v", corners, corners) / corners.shape[1])
+        return centre, size, corners / size[:, None, None]
+
     def thinned(self, corners: int) -> "ViewStack":
         """Return the same views with at most about `corners` corners each, spread over the detection."""
-        keep = np.unique(np.linspace(0, self.weights.shape[1] - 1, corners).astype(np.int64))
+        longest = self.weights.shape[1]
+        keep = np.linspace(0, longest - 1, min(corners, longest)).astype(np.int64)
         weights = self.weights[:, keep]
         counts = tuple(int(n) for n in np.count_nonzero(weights, axis=1))
         if min(counts) < CORNERS_NEEDED:
@@ -86,9 +97,20 @@ def stack_views(views: Sequence[View]) -> ViewStack:
     weights = (np.arange(max(counts)) < np.array(counts)[:, None]).astype(np.float64)
     board = np.stack([_padded(view.object_points, max(counts)) for view in views])
     image = np.stack([_padded(view.image_points, max(counts)) for view in views])
-    stack = ViewStack(board, image, weights, counts, visible_points=board)
+    stack = ViewStack(board, image, weights, counts, visible_points=_outline(board))
     _check_values(stack, [_name(view, number) for number, view in enumerate(views)])
     return stack
+
+
+def _outline(board: Array) -> Array:
+    """Return the points (v, m, 3) of boards (v, n, 3) that may be the farthest from a camera's axis.
+
+    Of a flat board before the camera one on its outline is; of bent ones and parts of boards all are taken.
+    """
+    if board[..., 2].any() or not (board == board[0]).all():
+        return board
+    outline = cv2.convexHull(board[0, :, :2].astype(np.float32), returnPoints=False)
+    return board[:, outline[:, 0]]
 
 
 def _name(view: View, number: int) -> str:

@@ -17,7 +17,7 @@ def turn_towards(rays: Array) -> tuple[Array, Array]:
     A view that keeps away from the image plane of the camera itself is not turned; of others the middle ray
     becomes the axis, and a ray that even then lies beyond 87 degrees is put there, which does for a start.
     """
-    length = np.linalg.norm(rays, axis=-1)
+    length = np.sqrt(np.sum(rays * rays, axis=-1))
     aside = np.any(rays[..., 2] < NEAR_PLANE * length, axis=-1)
     rotations = np.tile(np.eye(3), (len(rays), 1, 1))
     if np.any(aside):

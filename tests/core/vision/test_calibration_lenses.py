@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
+from bench.simulated_units import RATIONAL120, SIGMA_PX, draw_units
 from service.core.vision.calibration import calibrate_intrinsics
 from service.core.vision.camera import Intrinsics
 from service.core.vision.leave_one_out import leave_one_out
@@ -152,3 +153,12 @@ def test_what_boards_in_the_middle_cannot_tell_of_the_corners_is_not_claimed(len
     whole = mapping_error(result.intrinsics, result.covariance, whole_image(RATIONAL.image_size))
     assert mapping_error(result.intrinsics, result.covariance, seen_pixels(views)).mean_px < 2.0
     assert whole.worst_px > 20.0
+
+
+@pytest.mark.parametrize("number", [6, 58])
+def test_a_few_corners_that_lead_beyond_the_fold_do_not_end_the_solve(number: int) -> None:
+    *_, unit = draw_units(RATIONAL120, number + 1, (4, 10), 99)
+    result = calibrate_intrinsics(
+        unit.views, unit.true.image_size, unit.true.lens, nominal=unit.nominal, fixed=RATIONAL120.fixed
+    )
+    assert result.sigma_px == pytest.approx(SIGMA_PX, rel=0.15)

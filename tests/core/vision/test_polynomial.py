@@ -20,7 +20,7 @@ from service.core.vision.polynomial import is_positive_up_to, smallest_positive_
     ],
 )
 def test_the_first_positive_root_is_found_where_there_is_one(ascending: list[float], root: float) -> None:
-    assert smallest_positive_root(np.array(ascending)) == pytest.approx(root)
+    assert smallest_positive_root(ascending) == pytest.approx(root)
 
 
 @settings(deadline=None)
@@ -29,7 +29,7 @@ def test_the_first_positive_root_is_found_where_there_is_one(ascending: list[flo
     end=st.floats(0.01, 4.0),
 )
 def test_positive_up_to_a_place_is_what_the_first_root_says(higher: list[float], end: float) -> None:
-    ascending = np.array([1.0, *higher])
+    ascending = [1.0, *higher]
     root = smallest_positive_root(ascending)
     # On the root itself, or where the curve only touches zero, rounding decides.
     values = np.polynomial.polynomial.polyval(np.linspace(0.0, end, 400), ascending)
