@@ -3,11 +3,14 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.guiding import Client, JsonObject, add_station, connected
 from tests.plant import Plant, running_plant
 
+MOVES = ("right_px", "down_px", "closer_share", "tilt_deg", "turn_deg", "roll_deg")
+SEEN = 0.2
 GAIN = 0.7  # of what is left: whoever follows the guidance does not do it all at once
 
 
@@ -23,21 +26,24 @@ def station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Plant]:
 
 
 def follow(kiosk: Client) -> JsonObject:
-    """Move the board as the differences say until a capture is accepted."""
+    """Move the board as the differences say until a capture is accepted, each time seeing what that did.
+
+    Whoever moves again before the picture shows the move goes too far, the more the slower the machine is.
+    """
+    before = np.full(len(MOVES), np.inf)
     while True:
         heard = kiosk.hear()
         if heard["type"] == "capture_accepted":
             return heard
         assert heard["type"] in {"state", "run"}, heard
         difference = heard.get("difference")
-        if difference is not None and heard["match"] < 1 and not heard["is_capturing"]:
-            kiosk.say(
-                "move_board",
-                **{
-                    name: GAIN * difference[name]
-                    for name in ("right_px", "down_px", "closer_share", "tilt_deg", "turn_deg", "roll_deg")
-                },
-            )
+        if difference is None or heard["match"] >= 1 or heard["is_capturing"]:
+            continue
+        left = np.array([difference[name] for name in MOVES])
+        # All of a move is seen at once, so that whatever is most of it tells.
+        if not np.linalg.norm(left - before) < SEEN * np.linalg.norm(before):
+            kiosk.say("move_board", **{name: GAIN * float(left[i]) for i, name in enumerate(MOVES)})
+            before = left
 
 
 def test_moves_along_the_guidance_lead_to_an_exact_capture(station: Plant) -> None:
