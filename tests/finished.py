@@ -8,9 +8,11 @@ import numpy as np
 from service.core.quality.gates import Verdict
 from service.core.run import Purpose
 from service.core.vision.camera import Intrinsics, parameter_names
+from service.core.vision.transforms import Pose
 from service.storage.models import MeasurementRow
 from service.usecases.finished_run import FinishedRun, ImageOfRun, RunFacts, ViewOfRun
 from service.usecases.sku_document import SkuDocument
+from service.usecases.vehicle_place import VehiclePlace
 from tests.fakes import START
 
 COEFFICIENTS = {
@@ -38,6 +40,7 @@ def finished_run(
     serial: str = "VIN-0001",
     images: int = 6,
     sku_name: str = "Cabin camera",
+    place: VehiclePlace | None = None,
     **parameters: float,
 ) -> FinishedRun:
     """A finished run; `parameters` replace some of the lens's."""
@@ -77,9 +80,15 @@ def finished_run(
             }
         ),
         signed_by="kPrK_qmxVWaYVA9wwBF6Iuo3vVzz7TxHCTwXBygrS4k",
+        place=place,
     )
 
 
+PLACE = VehiclePlace(
+    Pose(np.array([0.1, -2.2, 0.3]), np.array([1.42, -0.36, 0.98])),
+    np.diag(np.array([1e-4, 2e-4, 1e-4, 3e-4, 4e-4, 2e-4]) ** 2),
+    later_id=None,
+)
 MAPPING = {
     "zone_mean_px": 0.0412,
     "zone_worst_px": 0.0903,

@@ -24,6 +24,12 @@ SAID = {
     Verdict.FAIL: "FAIL      The certificate is genuine, and it says that this camera FAILED. Do not use it.",
 }
 
+SAID_OF_PLACE = {
+    Verdict.PASS: "PASS      The certificate of the camera's place in the vehicle is genuine.",
+    Verdict.MARGINAL: "MARGINAL  The certificate is genuine; the place in the vehicle has little margin.",
+    Verdict.FAIL: "FAIL      The certificate is genuine; the place in the vehicle FAILED. Do not use it.",
+}
+
 
 def add_verify(parser: argparse.ArgumentParser) -> None:
     """Describe the verb."""
@@ -66,10 +72,12 @@ def _verify(arguments: argparse.Namespace) -> int:
 
 def _report(genuine: Genuine) -> str:
     content, run, result = genuine.content, genuine.content["run"], genuine.content["result"]
+    later = content.get("extrinsics")
+    extrinsics = later or result.get("extrinsics")
     lines = {
         "serial": run["serial"],
         "SKU": f"{run['sku']}, revision {run['revision']}",
-        "station": run["station"] or "none named",
+        "station": (later or run)["station"] or "none named",
         "purpose": run["purpose"],
         "finished": run["finished_at"],
         "issued": content["issued_at"],
@@ -77,13 +85,20 @@ def _report(genuine: Genuine) -> str:
         "run": run["id"],
         "lens": f"{result['lens']}, {result['image_size'][0]}x{result['image_size'][1]} px",
         "intrinsics": ", ".join(f"{name} {value:.6g}" for name, value in result["intrinsics"].items()),
+        "place": "not measured" if extrinsics is None else _place(extrinsics["pose"]),
         "result": f"SHA-256 {result['sha256']}",
     }
     failed = [one["name"] for one in content["measurements"] if one["verdict"] == Verdict.FAIL.value]
     if failed:
         lines["failed"] = ", ".join(failed)
     told = [f"{name:<10}{value}" for name, value in lines.items()]
-    return "\n".join([SAID[Verdict(content["verdict"])], *told])
+    said = SAID_OF_PLACE if later else SAID
+    return "\n".join([said[Verdict(content["verdict"])], *told])
+
+
+def _place(pose: dict[str, list[float]]) -> str:
+    position, rotation = (", ".join(f"{v:.6g}" for v in pose[name]) for name in ("tvec", "rvec"))
+    return f"T_vehicle_cam at {position} m, rotation vector {rotation} rad"
 
 
 def _keys(arguments: argparse.Namespace) -> dict[str, Ed25519PublicKey]:

@@ -52,3 +52,15 @@ class LaterPictureRow(SeenPicture, Row):
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     later_extrinsics_id: Mapped[UUID] = mapped_column(refers_to("later_extrinsics.id"))
+
+
+class LaterCertificateRow(Row):
+    """The signed certificate of extrinsics that were measured after their run; rows are only ever added."""
+
+    __tablename__ = "later_certificate"
+
+    id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
+    later_extrinsics_id: Mapped[UUID] = mapped_column(refers_to("later_extrinsics.id"), unique=True)
+    key_id: Mapped[str]
+    token: Mapped[str]
+    created_at: Mapped[datetime]

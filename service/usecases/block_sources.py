@@ -36,6 +36,7 @@ FAMILIES: Final[Mapping[str, Callable[[FinishedRun], Mapping[str, float | None]]
     "intrinsics": lambda run: run.facts.intrinsics.parameters,
     "sd": lambda run: run.facts.sd,
     "mapping": lambda run: run.document["mapping"],
+    "extrinsics": lambda run: {} if run.place is None else run.place.values,
 }
 
 
@@ -49,6 +50,12 @@ def value_of(run: FinishedRun, layout: BlockLayout, source: str) -> Value:
     values = FAMILIES[family](run) if family in FAMILIES else {}
     value = values.get(name)
     if value is None:
+        if family == "extrinsics" and run.place is None:
+            raise BlockLayoutUnusable(
+                f"The layout asks for '{source}', and nobody measured where this camera is in its vehicle. "
+                "Measure its extrinsics, or take a layout without them.",
+                source=source,
+            )
         known = [*SINGLE, "layout.version", "layout.size", *(f"{one}.NAME" for one in FAMILIES)]
         raise BlockLayoutUnusable(
             f"This result has no '{source}'; its lens is {run.facts.intrinsics.lens}. Sources are: "

@@ -22,7 +22,7 @@ from service.storage.models import CertificateRow, MeasurementRow
 from service.usecases.audit import record
 from service.usecases.canonical_json import canonical_json
 from service.usecases.file_names import result_file_name
-from service.usecases.finished_run import FinishedRun, load_finished_run
+from service.usecases.finished_run import FinishedRun, RunFacts, load_finished_run
 from service.usecases.result_problems import CertificateRefused
 from service.usecases.runs import get_run
 from service.usecases.signing import KeyRing, sign, verify
@@ -30,6 +30,8 @@ from service.usecases.signing import KeyRing, sign, verify
 JsonObject = dict[str, Any]
 
 KIND = "dmscal-certificate+json"
+EXTRINSICS_KIND = "dmscal-extrinsics+json"
+KINDS = (KIND, EXTRINSICS_KIND)
 VERSION = 1
 MEDIA_TYPE = "application/jose"
 
@@ -84,7 +86,7 @@ def _issue_once(database: Database, keys: KeyRing, run_id: UUID, who: str, now: 
 
 def check_certificate(token: bytes, keys: Mapping[str, Ed25519PublicKey]) -> Genuine:
     """Return what a certificate says if one of the keys has signed exactly this; else CertificateRefused."""
-    payload, key_id = verify(token, KIND, keys)
+    payload, key_id = verify(token, KINDS, keys)
     content = json.loads(payload)
     if content.get("format_version") != VERSION:
         raise CertificateRefused(
@@ -102,38 +104,57 @@ def result_hash(document: JsonObject) -> str:
 
 def certificate_content(run: FinishedRun, now: datetime) -> JsonObject:
     """Return what is signed."""
-    facts = run.facts
+    extrinsics = run.document.get("extrinsics")
     return {
         "format": KIND,
         "format_version": VERSION,
-        "issued_at": _time(now),
-        "verdict": facts.verdict.value,
-        "run": {
-            "id": str(facts.run_id),
-            "serial": facts.serial,
-            "sku": facts.sku,
-            "revision": facts.revision,
-            "station": facts.station,
-            "purpose": facts.purpose.value,
-            "opened_at": _time(facts.opened_at),
-            "finished_at": _time(facts.finished_at),
-        },
+        "issued_at": time_text(now),
+        "verdict": run.facts.verdict.value,
+        "run": run_content(run.facts),
         "result": {
-            "id": str(facts.result_id),
-            "sha256": result_hash(run.document),
-            "lens": facts.intrinsics.lens,
-            "image_size": list(facts.intrinsics.image_size),
-            "intrinsics": facts.intrinsics.parameters,
-            "sd": facts.sd,
-            "covariance": facts.covariance.tolist(),
-            "rms_px": facts.rms_px,
-            "sigma_px": facts.sigma_px,
+            **camera_content(run),
+            "rms_px": run.facts.rms_px,
+            "sigma_px": run.facts.sigma_px,
             "mapping": run.document["mapping"],
+            "extrinsics": None if extrinsics is None else place_content(extrinsics),
         },
-        "measurements": [_measurement(row) for row in facts.measurements],
+        "measurements": [_measurement(row) for row in run.facts.measurements],
         "images": [{"number": image.number, "sha256": image.sha256} for image in run.images],
-        "versions": facts.versions,
+        "versions": run.facts.versions,
     }
+
+
+def run_content(facts: RunFacts) -> JsonObject:
+    """Return who was calibrated, when and where."""
+    return {
+        "id": str(facts.run_id),
+        "serial": facts.serial,
+        "sku": facts.sku,
+        "revision": facts.revision,
+        "station": facts.station,
+        "purpose": facts.purpose.value,
+        "opened_at": time_text(facts.opened_at),
+        "finished_at": time_text(facts.finished_at),
+    }
+
+
+def camera_content(run: FinishedRun) -> JsonObject:
+    """Return the intrinsics with their covariance, and the result that they are from."""
+    facts = run.facts
+    return {
+        "id": str(facts.result_id),
+        "sha256": result_hash(run.document),
+        "lens": facts.intrinsics.lens,
+        "image_size": list(facts.intrinsics.image_size),
+        "intrinsics": facts.intrinsics.parameters,
+        "sd": facts.sd,
+        "covariance": facts.covariance.tolist(),
+    }
+
+
+def place_content(extrinsics: JsonObject) -> JsonObject:
+    """Return `T_vehicle_cam` of stored extrinsics, its covariance, and where the target stood."""
+    return {name: extrinsics[name] for name in ("pose", "covariance", "fixture")}
 
 
 def _measurement(row: MeasurementRow) -> JsonObject:
@@ -149,5 +170,6 @@ def _measurement(row: MeasurementRow) -> JsonObject:
     }
 
 
-def _time(moment: datetime) -> str:
+def time_text(moment: datetime) -> str:
+    """Return a moment as certificates write it: in UTC, to the microsecond."""
     return moment.astimezone(UTC).isoformat(timespec="microseconds").replace("+00:00", "Z")

@@ -31,6 +31,7 @@ from service.storage.models import (
 from service.usecases.results import read_result
 from service.usecases.runs import get_run
 from service.usecases.sku_document import SkuDocument
+from service.usecases.vehicle_place import VehiclePlace, find_place
 
 JsonObject = dict[str, Any]
 
@@ -97,6 +98,7 @@ class FinishedRun:
     images: tuple[ImageOfRun, ...]
     sku: SkuDocument
     signed_by: str | None
+    place: VehiclePlace | None
 
 
 def load_finished_run(session: Session, run_id: UUID) -> FinishedRun:
@@ -113,6 +115,7 @@ def load_finished_run(session: Session, run_id: UUID) -> FinishedRun:
         images=tuple(ImageOfRun(capture.number, capture.sha256) for capture in captures),
         sku=SkuDocument.model_validate(session.get_one(SkuRevisionRow, run.sku_revision_id).document),
         signed_by=session.scalar(select(CertificateRow.key_id).where(CertificateRow.run_id == run_id)),
+        place=find_place(session, run_id, document),
     )
 
 

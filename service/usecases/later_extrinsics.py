@@ -35,15 +35,26 @@ from service.usecases.captures import picture_columns
 from service.usecases.extrinsics_document import extrinsics_document
 from service.usecases.fixture_document import FixtureDocument
 from service.usecases.images import image_sha256
+from service.usecases.later_certificate import issue_later
 from service.usecases.later_extrinsics_views import LaterExtrinsicsView, get_later, pictures_of, view_later
 from service.usecases.observation import Observation, Picture, Prescription, observe
 from service.usecases.result_document import versions
 from service.usecases.runs import get_run
+from service.usecases.signing import KeyRing
 from service.usecases.stations import get_station
 
 JsonObject = dict[str, Any]
 _Seen = tuple[Picture, Observation]
 MOST_PICTURES = 8  # of one request
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Which run's camera is to be placed, by pictures of the fixed target of which station."""
+
+    run_id: UUID
+    station: str
+    pictures: tuple[Picture, ...]
 
 
 @dataclass(frozen=True)
@@ -71,40 +82,33 @@ class _Request:
 
 
 def measure_later(
-    database: Database,
-    blobs: BlobStore,
-    run_id: UUID,
-    station: str,
-    pictures: Sequence[Picture],
-    *,
-    who: str,
-    now: datetime,
+    database: Database, blobs: BlobStore, keys: KeyRing, wanted: Wanted, *, who: str, now: datetime
 ) -> Placed:
-    """Find, judge and store where the camera of a finished run is; asked twice, it is answered again.
+    """Find, judge, store and certify where a run's camera is; asked twice, it is answered again.
 
-    Raises NotFound, ResultNotUsable, FixtureMissing, PictureOfAnother, DuplicateImage, PoseUndetermined, and
-    what `observe` raises.
+    Raises NotFound, ResultNotUsable, FixtureMissing, PictureOfAnother, DuplicateImage, PoseUndetermined,
+    and what `observe` raises.
     """
-    hashes = tuple(image_sha256(picture.content) for picture in pictures)
+    hashes = tuple(image_sha256(picture.content) for picture in wanted.pictures)
     if len(set(hashes)) < len(hashes):
         raise DuplicateImage("The same picture is sent twice in one request. Send each picture once.")
     with database.read() as session:
-        request = _load(session, run_id, station, hashes)
+        request = _load(session, wanted, hashes)
         known = _find_same(session, request)
         if known is not None:
             return Placed(known, is_new=False)
         _check(session, request)
     asked = Prescription(request.camera.intrinsics, parse_target(request.fixture.target), None)
-    seen = [(picture, observe(picture, asked)) for picture in pictures]
-    for picture in pictures:
+    seen = [(picture, observe(picture, asked)) for picture in wanted.pictures]
+    for picture in wanted.pictures:
         blobs.put(picture.content)
     with database.write() as session:
         # Whoever finishes a newer run of the serial meanwhile is not held up: the answer was true when asked.
-        get_run(session, run_id, lock=True)
+        get_run(session, wanted.run_id, lock=True)
         known = _find_same(session, request)
         if known is not None:
             return Placed(known, is_new=False)
-        return Placed(_store(session, request, seen, who=who, now=now), is_new=True)
+        return Placed(_store(session, request, seen, keys, who=who, now=now), is_new=True)
 
 
 def recompute_later(session: Session, later_id: UUID) -> JsonObject:
@@ -115,13 +119,13 @@ def recompute_later(session: Session, later_id: UUID) -> JsonObject:
     return _document(_judge(load_camera(session, row.run_id), fixture, rows), rows, fixture)
 
 
-def _load(session: Session, run_id: UUID, code: str, hashes: tuple[str, ...]) -> _Request:
-    camera, station = load_camera(session, run_id), get_station(session, code)
+def _load(session: Session, wanted: Wanted, hashes: tuple[str, ...]) -> _Request:
+    camera, station = load_camera(session, wanted.run_id), get_station(session, wanted.station)
     if station.fixture is None:
         raise FixtureMissing(
-            f"Nobody said where the fixed target of the station '{code}' stands. Give it its fixture, or "
-            "name a station that has one.",
-            station=code,
+            f"Nobody said where the fixed target of the station '{wanted.station}' stands. Give it its "
+            "fixture, or name a station that has one.",
+            station=wanted.station,
         )
     return _Request(camera, station, FixtureDocument.model_validate(station.fixture), hashes)
 
@@ -168,6 +172,7 @@ def _store(
     session: Session,
     request: _Request,
     seen: Sequence[tuple[Picture, Observation]],
+    keys: KeyRing,
     *,
     who: str,
     now: datetime,
@@ -192,6 +197,7 @@ def _store(
     )
     session.add_all([row, *rows])
     session.flush()
+    issue_later(session, keys, row, who, now)
     _announce(session, request, row, who, now)
     return view_later(session, [row])[0]
 

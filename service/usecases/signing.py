@@ -9,7 +9,7 @@ import base64
 import binascii
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Self
 
@@ -87,14 +87,14 @@ def read_key_set(content: bytes) -> dict[str, Ed25519PublicKey]:
 
 
 def sign(payload: bytes, kind: str, keys: KeyRing) -> str:
-    """Return a payload signed as compact JWS; `kind` goes into the header and is asked for by `verify`."""
+    """Return a payload signed as compact JWS; `kind` goes into the header, where `verify` looks for it."""
     header = canonical_json({"alg": ALGORITHM, "kid": keys.key_id, "typ": kind})
     signed = f"{_encode(header)}.{_encode(payload)}"
     return f"{signed}.{_encode(keys.signer.sign(signed.encode('ascii')))}"
 
 
-def verify(token: bytes, kind: str, keys: Mapping[str, Ed25519PublicKey]) -> tuple[bytes, str]:
-    """Return the payload of a signed document and the id of the key that signed it.
+def verify(token: bytes, kinds: Collection[str], keys: Mapping[str, Ed25519PublicKey]) -> tuple[bytes, str]:
+    """Return the payload of a signed document of one of the kinds and the id of the key that signed it.
 
     Raises CertificateRefused, naming why, for everything that is not exactly what one of the keys has signed.
     """
@@ -110,7 +110,7 @@ def verify(token: bytes, kind: str, keys: Mapping[str, Ed25519PublicKey]) -> tup
         raise CertificateRefused(
             "A part of the certificate is not base64url, or its header no JSON.", reason="form"
         ) from error
-    key_id = _check_header(header, kind)
+    key_id = _check_header(header, kinds)
     if key_id not in keys:
         raise CertificateRefused(
             f"It names the key '{key_id}', which is not among the keys given. Get the key set of the service "
@@ -129,15 +129,16 @@ def verify(token: bytes, kind: str, keys: Mapping[str, Ed25519PublicKey]) -> tup
     return payload, key_id
 
 
-def _check_header(header: object, kind: str) -> str:
+def _check_header(header: object, kinds: Collection[str]) -> str:
     if not isinstance(header, dict) or header.get("alg") != ALGORITHM:
         raise CertificateRefused(
             f"Its signature is not by {ALGORITHM}, the only algorithm of certificates. Do not trust it.",
             reason="algorithm",
         )
-    if set(header) != HEADER_NAMES or header["typ"] != kind or not isinstance(header["kid"], str):
+    if set(header) != HEADER_NAMES or header["typ"] not in kinds or not isinstance(header["kid"], str):
         raise CertificateRefused(
-            f"Its header is not that of a {kind}: it must hold alg, kid and typ.", reason="header"
+            f"Its header is not that of a {' or a '.join(kinds)}: it must hold alg, kid and typ.",
+            reason="header",
         )
     return str(header["kid"][:200])
 

@@ -5,6 +5,8 @@ from pathlib import Path
 from playwright.sync_api import Page, expect
 
 from service.demo.customer import Customer
+from service.usecases.certificate import check_certificate
+from service.usecases.signing import read_key_set
 from tests.api.rest.test_extrinsics import FIXTURE, PICTURE, T_VEHICLE_CAM, pose_json
 from tests.browser.access import Access
 from tests.browser.chromium import Watch
@@ -30,6 +32,26 @@ def finished_run(serving: Serving) -> str:
     return run_id
 
 
+def placed_later(serving: Serving) -> str:
+    """The id of a run whose camera was found far from where it belongs, after the run."""
+    customer = Customer.of(serving.url, serving.key)
+    with customer.http:
+        customer.describe_sku({**SKU, "code": "later", "mounting": pose_json(T_VEHICLE_CAM)})
+        made = customer.ask("POST", "/skus/later/revisions/1/pose-sets", json={"poses": poses_json()})
+        customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
+        moved = {**FIXTURE, "pose": {**FIXTURE["pose"], "tvec": [1.52, 0.2, 1.0]}}
+        customer.ask("POST", "/stations", json={"code": "later1", "name": "Later 1", "fixture": moved})
+        order = {"sku": "later", "serial": "VIN-LATER", "purpose": "simulated"}
+        run_id = str(customer.ask("POST", "/runs", json=order)["id"])
+        for i in range(len(pose_set().poses)):
+            files = {"image": ("image.png", picture(i), "image/png")}
+            customer.ask("POST", f"/runs/{run_id}/captures?pose_index={i}", files=files)
+        customer.ask("POST", f"/runs/{run_id}/finish")
+        files = {"image": ("image.png", PICTURE, "image/png")}
+        customer.ask("POST", f"/runs/{run_id}/extrinsics?station=later1", files=files)
+    return run_id
+
+
 def test_the_place_in_the_vehicle_is_shown_with_its_uncertainty(
     page: Page, serving: Serving, watch: Watch, shots: Path
 ) -> None:
@@ -49,21 +71,7 @@ def test_the_place_in_the_vehicle_is_shown_with_its_uncertainty(
 def test_what_was_measured_after_the_run_is_shown_with_its_own_verdict(
     page: Page, serving: Serving, watch: Watch, shots: Path, access: Access
 ) -> None:
-    customer = Customer.of(serving.url, serving.key)
-    with customer.http:
-        customer.describe_sku({**SKU, "code": "later", "mounting": pose_json(T_VEHICLE_CAM)})
-        made = customer.ask("POST", "/skus/later/revisions/1/pose-sets", json={"poses": poses_json()})
-        customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
-        moved = {**FIXTURE, "pose": {**FIXTURE["pose"], "tvec": [1.52, 0.2, 1.0]}}
-        customer.ask("POST", "/stations", json={"code": "later1", "name": "Later 1", "fixture": moved})
-        order = {"sku": "later", "serial": "VIN-LATER", "purpose": "simulated"}
-        run_id = str(customer.ask("POST", "/runs", json=order)["id"])
-        for i in range(len(pose_set().poses)):
-            files = {"image": ("image.png", picture(i), "image/png")}
-            customer.ask("POST", f"/runs/{run_id}/captures?pose_index={i}", files=files)
-        customer.ask("POST", f"/runs/{run_id}/finish")
-        files = {"image": ("image.png", PICTURE, "image/png")}
-        customer.ask("POST", f"/runs/{run_id}/extrinsics?station=later1", files=files)
+    run_id = placed_later(serving)
     page.set_viewport_size({"width": 1600, "height": 1400})
     page.goto(f"{serving.url}/#key={serving.key}&/runs/{run_id}")
 
@@ -74,6 +82,12 @@ def test_what_was_measured_after_the_run_is_shown_with_its_own_verdict(
     expect(panel.locator(".tag")).to_have_text("FAIL")
     expect(panel).to_contain_text("The camera is not where it belongs.")
     expect(page.locator(".banner")).to_contain_text("PASS")
+    with page.expect_download() as download:
+        panel.get_by_role("button", name="Certificate (.jws)").click()
+    keys = read_key_set(page.request.get(f"{serving.url}/.well-known/jwks.json").body())
+    genuine = check_certificate(Path(download.value.path()).read_bytes(), keys)
+    assert "FAIL" in download.value.suggested_filename
+    assert (genuine.content["verdict"], genuine.content["run"]["serial"]) == ("FAIL", "VIN-LATER")
     access.look(page, "extrinsics after the run")
     page.screenshot(path=shots / "run-later-extrinsics.png", full_page=True)
     assert not access.found, "\n".join(access.found)

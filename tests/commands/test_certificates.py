@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from uuid import UUID
 
 import pytest
 
@@ -14,10 +15,13 @@ from service.adapters.signing_keys_files import load_signing_keys
 from service.cli import main
 from service.core.quality.gates import Verdict
 from service.usecases.canonical_json import canonical_json
-from service.usecases.certificate import KIND, certificate_content
+from service.usecases.certificate import EXTRINSICS_KIND, KIND, certificate_content
+from service.usecases.later_certificate import later_content
+from service.usecases.later_extrinsics_views import LaterExtrinsicsView
+from service.usecases.observation import pose_to_json
 from service.usecases.signing import KeyRing, key_set, sign
 from tests.fakes import START
-from tests.finished import finished_run
+from tests.finished import PLACE, finished_run
 
 Printed = pytest.CaptureFixture[str]
 
@@ -54,6 +58,34 @@ def test_a_genuine_certificate_is_told_with_whose_it_is_and_by_which_key(
 
     assert printed.startswith("PASS ")
     for said in ("VIN-0001", "lens1, revision 3", "line1-cal2", "2026-03-01T06:01:00.000005Z", keys.key_id):
+        assert said in printed
+
+
+def test_the_certificate_of_a_place_in_the_vehicle_is_checked_like_any_other(
+    tmp_path: Path, keys: KeyRing, jwks: Path, capsys: Printed
+) -> None:
+    measured = LaterExtrinsicsView(
+        id=UUID(int=9),
+        run_id=UUID(int=1),
+        serial="VIN-0001",
+        station="place1",
+        verdict=Verdict.MARGINAL,
+        extrinsics={"pose": pose_to_json(PLACE.pose), "covariance": [], "fixture": {}},
+        gates=[],
+        pictures=[],
+        versions={},
+        created_at=START,
+        created_by="robot",
+    )
+    content = later_content(finished_run(), measured, START)
+    path = tmp_path / "place.jws"
+    path.write_text(sign(canonical_json(content), EXTRINSICS_KIND, keys))
+
+    assert run("verify", path, "--jwks", jwks) == 0
+
+    printed = capsys.readouterr().out
+    assert printed.startswith("MARGINAL ")
+    for said in ("place in the vehicle", "place1", "at 1.42, -0.36, 0.98 m", "VIN-0001"):
         assert said in printed
 
 

@@ -5,6 +5,7 @@ import struct
 from functools import partial
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,7 +19,7 @@ from service.usecases.block_sources import value_of
 from service.usecases.certificate import result_hash
 from service.usecases.finished_run import FinishedRun
 from service.usecases.result_problems import BlockLayoutUnusable
-from tests.finished import finished_run
+from tests.finished import PLACE, finished_run
 
 LAYOUT: dict[str, Any] = {
     "name": "cabin-eeprom",
@@ -184,6 +185,23 @@ def test_fields_neither_overlap_nor_share_a_name(fields: list[dict[str, Any]]) -
 def test_a_value_without_room_names_its_field_or_source(field: dict[str, Any], said: str) -> None:
     with pytest.raises(BlockLayoutUnusable, match=said):
         block(by=layout(fields=[{"name": "n", **field}]))
+
+
+def test_the_place_in_the_vehicle_is_written_where_it_was_measured() -> None:
+    names = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "sd_x_m", "sd_rz_rad")
+    fields = [{"name": name, "type": "f64", "source": f"extrinsics.{name}"} for name in names]
+    by = layout(fields=fields)
+
+    x, y, z, qw, qx, qy, qz, sd_x, sd_rz = struct.unpack_from("<9d", block(finished_run(place=PLACE), by))
+
+    assert (x, y, z) == tuple(PLACE.pose.tvec)
+    angle = np.linalg.norm(PLACE.pose.rvec)
+    assert (qx, qy, qz) == pytest.approx(tuple(PLACE.pose.rvec * np.sin(angle / 2) / angle))
+    assert (qw, sd_x, sd_rz) == pytest.approx((np.cos(angle / 2), 3e-4, 1e-4))
+    with pytest.raises(BlockLayoutUnusable, match="nobody measured"):
+        block(by=by)
+    with pytest.raises(BlockLayoutUnusable, match=r"no 'extrinsics\.yaw'"):
+        value_of(finished_run(place=PLACE), by, "extrinsics.yaw")
 
 
 def test_a_serial_beyond_ascii_is_refused_and_never_changed() -> None:

@@ -33,7 +33,7 @@ def header(**members: Any) -> bytes:
 
 def reason(token: bytes, keys: dict[str, Ed25519PublicKey]) -> object:
     with pytest.raises(CertificateRefused) as refused:
-        verify(token, KIND, keys)
+        verify(token, [KIND], keys)
     return refused.value.facts["reason"]
 
 
@@ -49,7 +49,7 @@ def test_what_was_signed_is_verified_by_the_published_keys_and_always_the_same()
 
     published = read_key_set(json.dumps(key_set(keys)).encode())
 
-    assert verify(token.encode(), KIND, published) == (b"{}", keys.key_id)
+    assert verify(token.encode(), [KIND], published) == (b"{}", keys.key_id)
     assert sign(b"{}", KIND, keys) == token
 
 
@@ -57,7 +57,7 @@ def test_a_key_that_signs_no_more_still_verifies() -> None:
     token = sign(b"{}", KIND, ring(1)).encode()
     rotated = ring(2, 1)
 
-    assert verify(token, KIND, rotated.public)[0] == b"{}"
+    assert verify(token, [KIND], rotated.public)[0] == b"{}"
     assert list(rotated.public) == [rotated.key_id, ring(1).key_id]
 
 

@@ -9,11 +9,13 @@ from pydantic import Field
 
 from service.api.auth import Operator, Viewer
 from service.api.dependencies import Now, Of, PageOf, ReadDb
+from service.api.files import attachment
 from service.api.rest.results import Extrinsics, Measurement
 from service.api.shapes import Answer, Id, Page
 from service.api.uploads import UPLOADS_BODY, Uploads
 from service.core.quality.gates import Verdict
-from service.usecases import later_extrinsics, later_extrinsics_views
+from service.usecases import later_certificate, later_extrinsics, later_extrinsics_views
+from service.usecases.certificate import MEDIA_TYPE
 from service.usecases.observation import Picture
 from service.usecases.text import Code
 
@@ -77,9 +79,10 @@ def measure_extrinsics(
     intrinsics are taken with their covariance. The camera and the vehicle stand still over all pictures.
     Repeating the request is safe: the same pictures at the same station give the same answer, with 200.
     """
-    pictures = [Picture(one.content, one.file_name, of.max_image_pixels) for one in uploads]
+    pictures = tuple(Picture(one.content, one.file_name, of.max_image_pixels) for one in uploads)
+    wanted = later_extrinsics.Wanted(run_id, station, pictures)
     placed = later_extrinsics.measure_later(
-        of.database, of.blobs, run_id, station, pictures, who=caller.name, now=now
+        of.database, of.blobs, of.signing_keys, wanted, who=caller.name, now=now
     )
     response.status_code = 201 if placed.is_new else 200
     return LaterExtrinsics.model_validate(placed.view)
@@ -95,6 +98,23 @@ def list_extrinsics(run_id: Id, caller: Viewer, db: ReadDb, page: PageOf) -> Pag
 def read_extrinsics(extrinsics_id: Id, caller: Viewer, db: ReadDb) -> LaterExtrinsics:
     """Read where the camera is, with its covariance, its gates and the pictures behind it."""
     return LaterExtrinsics.model_validate(later_extrinsics_views.read_later(db, extrinsics_id))
+
+
+@router.get(
+    "/extrinsics/{extrinsics_id}/certificate",
+    summary="Read the certificate of extrinsics measured after a run",
+    response_class=Response,
+    responses={200: {"content": {MEDIA_TYPE: {}}, "description": "A compact JWS."}},
+)
+def read_certificate(extrinsics_id: Id, caller: Viewer, of: Of, now: Now) -> Response:
+    """Give what was measured as a signed document: a compact JWS (EdDSA), always the same bytes.
+
+    `dmscal verify` checks it like the certificate of a run, which keeps saying what the run found.
+    """
+    found = later_certificate.read_later_certificate(
+        of.database, of.signing_keys, extrinsics_id, caller.name, now
+    )
+    return attachment(found.token.encode("ascii"), MEDIA_TYPE, found.file_name)
 
 
 @router.get(

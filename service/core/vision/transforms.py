@@ -82,8 +82,26 @@ def turn_points(R: Array, points: Array) -> Array:
     return np.swapaxes(R @ np.swapaxes(points, -1, -2), -1, -2)
 
 
+def rotation_quaternion(R: Array) -> Array:
+    """Return unit quaternions w x y z (..., 4), w not negative, of rotation matrices (..., 3, 3)."""
+    q = _quaternion(R)
+    return np.asarray(q / np.sqrt(np.sum(q * q, axis=-1, keepdims=True)))
+
+
 def rotation_vector(R: Array) -> Array:
-    """Return rotation vectors (..., 3), rad, of rotation matrices (..., 3, 3), by way of unit quaternions."""
+    """Return rotation vectors (..., 3), rad, of rotation matrices (..., 3, 3), by way of quaternions."""
+    q = _quaternion(R)
+    xyz = q[..., 1:]
+    sine = np.sqrt(np.sum(xyz * xyz, axis=-1))
+    none = sine < 1e-12 * q[..., 0]
+    # Of almost no angle the vector is twice the quaternion's of length one, whose w is one.
+    angle = np.where(none, 2.0, 2.0 * np.arctan2(sine, q[..., 0]))
+    vector: Array = xyz * (angle / np.where(none, q[..., 0], sine))[..., None]
+    return vector
+
+
+def _quaternion(R: Array) -> Array:
+    """Return quaternions w x y z (..., 4) of any length, w not negative, of rotations (..., 3, 3)."""
     R = np.asarray(R, dtype=np.float64)
     # All products of two of w, x, y, z, four times; the row of the largest square is well conditioned.
     products = np.empty((*R.shape[:-2], 4, 4))
@@ -95,14 +113,7 @@ def rotation_vector(R: Array) -> Array:
         products[..., 0, 1 + i] = products[..., 1 + i, 0] = R[..., j, k] - R[..., k, j]
     best = np.einsum("...ii->...i", products).argmax(axis=-1)
     q = np.take_along_axis(products, best[..., None, None], axis=-2)[..., 0, :]
-    q = np.where(q[..., :1] < 0, -q, q)
-    xyz = q[..., 1:]
-    sine = np.sqrt(np.sum(xyz * xyz, axis=-1))
-    none = sine < 1e-12 * q[..., 0]
-    # Of almost no angle the vector is twice the quaternion's of length one, whose w is one.
-    angle = np.where(none, 2.0, 2.0 * np.arctan2(sine, q[..., 0]))
-    vector: Array = xyz * (angle / np.where(none, q[..., 0], sine))[..., None]
-    return vector
+    return np.where(q[..., :1] < 0, -q, q)
 
 
 def angle_between(R_a: Array, R_b: Array) -> Array:

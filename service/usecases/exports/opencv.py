@@ -9,6 +9,7 @@ import numpy as np
 
 from service.usecases.exports.format import Format, headline
 from service.usecases.finished_run import FinishedRun
+from service.usecases.vehicle_place import VehiclePlace
 
 MODELS = {"pinhole5": "opencv", "rational8": "opencv_rational", "kannala_brandt4": "opencv_fisheye"}
 
@@ -35,8 +36,17 @@ def write(run: FinishedRun) -> bytes:
     storage.write("distortion_coefficients", intrinsics.dist_coeffs.reshape(-1, 1))
     storage.write("avg_reprojection_error", facts.rms_px)
     storage.write("standard_deviations", np.array([*facts.sd.values()]).reshape(-1, 1))
+    if run.place is not None:
+        storage.write("T_vehicle_cam", run.place.pose.matrix)
+        storage.write("T_vehicle_cam_covariance", run.place.covariance)
+        storage.write("T_vehicle_cam_measured", measured_in(run.place))
     text: str = storage.releaseAndGetString()
     return text.encode("utf-8")
+
+
+def measured_in(place: VehiclePlace) -> str:
+    """Return which measurement a place is from."""
+    return "run" if place.later_id is None else f"extrinsics {place.later_id}"
 
 
 FORMAT = Format("opencv", "OpenCV", "application/yaml", "yml", write)

@@ -1,17 +1,21 @@
 """Extrinsics after the run, over REST: stored intrinsics and pictures of a fixed target alone."""
 
+import struct
 from typing import Any
 from uuid import UUID
 
+import cv2
 import numpy as np
 import pytest
 from sqlalchemy import select
 
 from service.core.vision.transforms import Pose
 from service.storage.models import CalibrationRow, CaptureRow, OutboxEventRow, RunRow
-from service.storage.placed import LaterExtrinsicsRow
+from service.storage.placed import LaterCertificateRow, LaterExtrinsicsRow
 from service.storage.words import Role
+from service.usecases.certificate import check_certificate
 from service.usecases.later_extrinsics import recompute_later
+from service.usecases.signing import read_key_set
 from tests.api.rest.test_extrinsics import (
     FIXTURE,
     PICTURE,
@@ -69,6 +73,73 @@ def test_pictures_of_a_fixed_target_alone_give_the_place_in_the_vehicle(plant: P
         assert kinds.count("extrinsics.measured") == 1
 
 
+def test_what_is_measured_after_the_run_has_a_certificate_of_its_own(plant: Plant, run_id: str) -> None:
+    of_run = plant.get(f"/runs/{run_id}/certificate").content
+    made = plant.expect(201, measure(plant, run_id, PICTURE))
+    path = f"/extrinsics/{made['id']}/certificate"
+    answer = plant.get(path)
+
+    content = genuine(plant, answer.content)
+
+    told = content["extrinsics"]
+    assert (content["verdict"], content["run"]["serial"], told["station"]) == ("PASS", "VIN-1", "cal1")
+    assert (told["pose"], told["fixture"]) == (made["extrinsics"]["pose"], FIXTURE)
+    assert told["covariance"] == made["extrinsics"]["covariance"]
+    assert content["result"]["sha256"] == genuine(plant, of_run)["result"]["sha256"]
+    assert [one["name"] for one in content["measurements"]] == [gate["name"] for gate in made["gates"]]
+    assert [one["sha256"] for one in content["images"]] == [one["sha256"] for one in made["pictures"]]
+    assert answer.headers["content-type"] == "application/jose"
+    assert f"VIN-1-{content['run']['finished_at'][:4]}" in answer.headers["content-disposition"]
+    assert plant.get(f"/runs/{run_id}/certificate").content == of_run
+    with plant.app.state.services.database.write() as session:
+        row = session.scalars(select(LaterCertificateRow)).one()
+        assert row.token.encode() == answer.content == plant.get(path).content
+        # As of a measurement from before there were such certificates.
+        session.delete(row)
+    again = genuine(plant, plant.get(path).content)
+    assert {**again, "issued_at": ""} == {**content, "issued_at": ""}
+    problem(plant.get(f"/extrinsics/{run_id}/certificate"), 404, "not-found")
+
+
+def genuine(plant: Plant, token: bytes) -> JsonObject:
+    """Return what a certificate says, checked by the open keys."""
+    return check_certificate(token, read_key_set(plant.client.get("/.well-known/jwks.json").content)).content
+
+
+def test_exports_give_away_the_newest_place_that_did_not_fail(small_plant: Plant) -> None:
+    """The run's own first, then what was measured after it; never one that failed."""
+    small_plant.publish_sku(
+        block_layout={
+            "name": "place",
+            "version": 1,
+            "size": 24,
+            "fields": [
+                {"name": axis, "type": "f64", "source": f"extrinsics.{axis}_m"} for axis in ("x", "y", "z")
+            ],
+            "crc": None,
+        }
+    )
+    station(small_plant)
+    run_id = small_plant.finished_run()
+    path = f"/runs/{run_id}/exports/block"
+    problem(small_plant.get(path), 422, "block-layout-unusable")
+    shifted = Pose(SEEN.rvec, SEEN.tvec + np.array([0.02, 0.0, 0.0]))
+    failed = small_plant.expect(201, measure(small_plant, run_id, PICTURE, encode(shown_at(shifted, 80))))
+    assert failed["verdict"] == "FAIL"
+    problem(small_plant.get(path), 422, "block-layout-unusable")
+
+    found = small_plant.expect(201, measure(small_plant, run_id, PICTURE))
+
+    assert struct.unpack("<3d", small_plant.get(path).content) == tuple(found["extrinsics"]["pose"]["tvec"])
+    newer = small_plant.expect(201, measure(small_plant, run_id, *MORE))["extrinsics"]["pose"]["tvec"]
+    assert struct.unpack("<3d", small_plant.get(path).content) == tuple(newer)
+    written = cv2.FileStorage(
+        small_plant.get(f"/runs/{run_id}/exports/opencv").text,
+        cv2.FILE_STORAGE_READ | cv2.FILE_STORAGE_MEMORY,
+    )
+    assert written.getNode("T_vehicle_cam").mat()[:3, 3].tolist() == newer
+
+
 def test_it_is_what_the_run_itself_would_have_found(small_plant: Plant) -> None:
     """The same picture within the run and after it: one estimate, one covariance."""
     run_id = taken_run(small_plant)
@@ -77,7 +148,12 @@ def test_it_is_what_the_run_itself_would_have_found(small_plant: Plant) -> None:
     small_plant.expect(201, small_plant.call("POST", path, content=PICTURE, headers=headers))
     within = small_plant.expect(200, small_plant.finish(run_id))["extrinsics"]
 
+    certified = genuine(small_plant, small_plant.get(f"/runs/{run_id}/certificate").content)
+
     after = small_plant.expect(201, measure(small_plant, run_id, PICTURE))["extrinsics"]
+
+    assert certified["result"]["extrinsics"]["pose"] == within["pose"]
+    assert certified["result"]["extrinsics"]["covariance"] == within["covariance"]
 
     assert after["pose"]["tvec"] == pytest.approx(within["pose"]["tvec"], abs=1e-12)
     np.testing.assert_allclose(after["covariance"], within["covariance"], rtol=1e-9)

@@ -14,7 +14,7 @@ from service.usecases.certificate import result_hash
 from service.usecases.exports import pdf_report
 from service.usecases.exports.report.plots import expected_errors
 from service.usecases.finished_run import FinishedRun
-from tests.finished import finished_run
+from tests.finished import PLACE, finished_run
 
 
 def pages(content: bytes) -> list[str]:
@@ -47,6 +47,20 @@ def test_a_report_says_whose_result_it_is_on_each_of_three_pages() -> None:
     assert run.signed_by in traces
     assert all(image.sha256 in traces for image in run.images)
     assert "opencv 5.0.0" in traces
+
+
+def test_a_report_says_where_the_camera_is_in_the_vehicle_if_that_is_known() -> None:
+    first, *_ = texts(finished_run(place=PLACE))
+
+    for said in (
+        "Camera in the vehicle",
+        "1420.00",
+        "0.30",
+        "-126.051",
+        "measured with the run",
+    ):
+        assert said in first
+    assert "Camera in the vehicle" not in texts(finished_run())[0]
 
 
 def test_a_fail_is_told_on_every_page_and_says_why() -> None:

@@ -4,7 +4,9 @@ import csv
 import hashlib
 import io
 import json
+from dataclasses import replace
 from typing import Any
+from uuid import UUID
 
 import cv2
 import numpy as np
@@ -19,7 +21,7 @@ from service.usecases.exports.yaml_text import yaml_number
 from service.usecases.finished_run import FinishedRun
 from service.usecases.result_problems import FormatCannotSay
 from tests.fakes import START
-from tests.finished import finished_run
+from tests.finished import PLACE, finished_run
 
 # Directions that every lens sees.
 POINTS = np.array([[0.1, -0.2, 1.0], [-0.3, 0.15, 0.9], [0.0, 0.0, 0.5]])
@@ -63,6 +65,16 @@ def test_opencv_reads_its_file_and_projects_as_we_do(lens: str) -> None:
     else:
         pixels, _ = cv2.projectPoints(POINTS, still, still, K, D)
     assert np.allclose(pixels.reshape(-1, 2), expected_pixels(run), atol=1e-9)
+
+
+def test_opencv_reads_where_the_camera_is_in_the_vehicle() -> None:
+    run = finished_run(place=replace(PLACE, later_id=UUID(int=5)))
+    file = storage(opencv.write(run))
+
+    assert np.array_equal(file.getNode("T_vehicle_cam").mat(), PLACE.pose.matrix)
+    assert np.array_equal(file.getNode("T_vehicle_cam_covariance").mat(), PLACE.covariance)
+    assert file.getNode("T_vehicle_cam_measured").string() == f"extrinsics {UUID(int=5)}"
+    assert storage(opencv.write(finished_run())).getNode("T_vehicle_cam").isNone()
 
 
 @pytest.mark.parametrize(

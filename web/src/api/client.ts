@@ -220,6 +220,10 @@ export function getCertificate(runId: string): Promise<NamedFile> {
   return getFile(`${ROOT}/runs/${encodeURIComponent(runId)}/certificate`);
 }
 
+export function getExtrinsicsCertificate(id: string): Promise<NamedFile> {
+  return getFile(`${ROOT}/extrinsics/${encodeURIComponent(id)}/certificate`);
+}
+
 export function getExportFormats(signal?: AbortSignal): Promise<ExportFormats> {
   return getJson(`${ROOT}/exports`, signal);
 }

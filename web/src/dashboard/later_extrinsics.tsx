@@ -2,10 +2,11 @@
 import { type JSX } from "preact";
 import { useCallback, useId } from "preact/hooks";
 import { allParts } from "../api/all_parts";
-import { getLaterExtrinsics } from "../api/client";
+import { getExtrinsicsCertificate, getLaterExtrinsics } from "../api/client";
 import { useResource } from "../api/use_resource";
 import type { LaterExtrinsics } from "../generated/api";
 import { when } from "../format/times";
+import { saveFile } from "../shell/files";
 import { ProblemNotice } from "../shell/notices";
 import { adviceOf } from "../words/advice";
 import { language, words } from "../words/language";
@@ -13,6 +14,7 @@ import { measurementName } from "../words/measurements";
 import { ExtrinsicsBody } from "./extrinsics_panel";
 import { reasonsOf } from "./reasons";
 import { StandingTag } from "./runs_table";
+import { useAction } from "./use_action";
 
 export function LaterExtrinsicsPanels({ runId }: { runId: string }): JSX.Element | null {
   const found = useResource(
@@ -35,6 +37,12 @@ export function LaterExtrinsicsPanels({ runId }: { runId: string }): JSX.Element
 function Panel({ measured }: { measured: LaterExtrinsics }): JSX.Element {
   const say = words.value;
   const title = useId();
+  const action = useAction();
+  const saveCertificate = (): void =>
+    action.run(async () => {
+      const { name, content } = await getExtrinsicsCertificate(measured.id);
+      saveFile(name, content);
+    });
   const reasons = reasonsOf(measured.gates);
   return (
     <section class="panel" aria-labelledby={title}>
@@ -57,6 +65,12 @@ function Panel({ measured }: { measured: LaterExtrinsics }): JSX.Element {
         </ul>
       )}
       <ExtrinsicsBody extrinsics={measured.extrinsics} />
+      <div class="panel-body">
+        <button type="button" disabled={action.isBusy} onClick={saveCertificate}>
+          {say.files_certificate}
+        </button>
+        {action.problem !== null && <ProblemNotice problem={action.problem} />}
+      </div>
     </section>
   );
 }

@@ -20,6 +20,7 @@ from service.usecases.exports.report.paper import (
     cut,
     lines_of,
 )
+from service.usecases.exports.report.vehicle import WIDTH, draw_place
 from service.usecases.finished_run import FinishedRun
 
 SAID = {
@@ -90,6 +91,8 @@ def _parameters(paper: Paper, run: FinishedRun, y: float) -> float:
     )
     for text, x, anchor in heads:
         paper.text(MARGIN + x, y, text, Style(7.5, colour=MUTED, anchor=anchor))
+    if run.place is not None:
+        draw_place(paper, run.place, MARGIN + INNER - WIDTH, y)
     sd = run.facts.sd
     for place, (name, value) in enumerate(run.facts.intrinsics.parameters.items()):
         y += 14
