@@ -86,11 +86,13 @@ def test_a_job_that_does_not_end_in_time_goes_back_to_the_queue(database: Databa
 
 
 def test_a_long_job_that_reports_nothing_keeps_its_claim(database: Database) -> None:
+    stale_s = 3.0  # long enough for a busy machine to come round in
+
     def silent(_: JobRun) -> JobCompletion:
-        time.sleep(1.2)
+        time.sleep(1.3 * stale_s)
         return add_sku_row
 
-    queues = [ThreadJobs(database, SystemClock(), {"silent": silent}, stale_s=0.6) for _ in range(2)]
+    queues = [ThreadJobs(database, SystemClock(), {"silent": silent}, stale_s=stale_s) for _ in range(2)]
     with started(queues[0]), started(queues[1]):
         job_id = enqueue(database, queues[0], "silent")
         wait_for(lambda: job(database, job_id).state is JobState.DONE)
