@@ -1,11 +1,12 @@
 """A mixed set of live frames, six in ten with a board, before our detector and all of OpenCV's finders.
 
 Whole boards, boards cut by the border, boards with a part hidden, and nothing; the same frames for everybody,
-one after the other on one thread. A finder may use half-size frames, its best choice of flags and no
+in turn on one thread. A finder may use half-size frames, its best choice of flags and no
 refinement: only the order, the place and the time count.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import cv2
@@ -55,17 +56,22 @@ def compare(frames: list[tuple[Image, Array | None]], look: Look, target: Chessb
     the state.
     """
     workspace = LiveWorkspace()
-    rows = {
-        "ours": _judge(lambda image: detect_live(image, target, workspace).image_points, frames),
-        "to_state": _judge(lambda image: look(image).image_points, frames),
+    own: dict[str, Finder] = {
+        "ours": lambda image: detect_live(image, target, workspace).image_points,
+        "to_state": lambda image: look(image).image_points,
     }
-    own = set(rows)
-    rows |= {name: _judge(finder, frames) for name, finder in finders(target).items()}
+    judged = [_Judged(name, find) for name, find in {**own, **finders(target)}.items()]
+    # Everybody in turn on each frame: a machine that slows down for a while slows down all of them.
+    for image, truth in frames:
+        for one in judged:
+            one.see(image, truth)
+    whole = sum(truth is not None for _, truth in frames)
+    rows = {one.name: one.row(whole) for one in judged}
     rivals = {name: row for name, row in rows.items() if name not in own}
     best = min(rivals, key=lambda name: rivals[name]["cpu_p95_ms"])
     return {
         "frames": len(frames),
-        "with_board": sum(truth is not None for _, truth in frames),
+        "with_board": whole,
         "best_of_opencv": best,
         "speedup_p95": rivals[best]["p95_ms"] / rows["ours"]["p95_ms"],
         "speedup_cpu_p95": rivals[best]["cpu_p95_ms"] / rows["ours"]["cpu_p95_ms"],
@@ -96,18 +102,29 @@ def mix(prepared: PreparedScene, count: int, seed: int) -> list[tuple[Image, Arr
     return frames
 
 
-def _judge(find: Finder, frames: list[tuple[Image, Array | None]]) -> dict[str, float]:
-    timed, found, false = Timed(), 0, 0
-    for image, truth in frames:
-        points = timed.act(find, image)
+@dataclass
+class _Judged:
+    """A finder, its times, and how often it was right and wrong."""
+
+    name: str
+    find: Finder
+    timed: Timed = field(default_factory=Timed)
+    right: int = 0
+    false: int = 0
+
+    def see(self, image: Image, truth: Array | None) -> None:
+        """Look at a frame with these true corners (None: not the whole board)."""
+        points = self.timed.act(self.find, image)
         if points is None:
-            continue
+            return
         if truth is not None and _is_right(points, truth):
-            found += 1
+            self.right += 1
         else:
-            false += 1
-    whole = sum(truth is not None for _, truth in frames)
-    return {"rate": found / whole, "false": float(false), **spread(timed)}
+            self.false += 1
+
+    def row(self, whole: int) -> dict[str, float]:
+        """Return the figures, of so many frames with the whole board."""
+        return {"rate": self.right / whole, "false": float(self.false), **spread(self.timed)}
 
 
 def _is_right(points: Array, truth: Array) -> bool:
