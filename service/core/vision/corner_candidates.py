@@ -18,6 +18,8 @@ from service.core.vision.sampling import FloatImage, smooth
 from service.core.vision.transforms import Array
 
 RING_SAMPLES = 32
+BEFORE, FOLLOWING = (np.roll(np.arange(RING_SAMPLES), places) for places in (1, -1))
+RING_X, RING_Y = (way(np.arange(RING_SAMPLES) * (2.0 * np.pi / RING_SAMPLES)) for way in (np.cos, np.sin))
 SIGMA_PX = 1.1
 LEAST_CONTRAST = 5.0  # grey levels
 RADII_PX = (4.0, 6.5, 2.8)  # ordinary, blurred or noisy, tiny squares
@@ -84,13 +86,13 @@ def inspect_rings(blurred: FloatImage, points: Array, radii: Array) -> tuple[NDA
         return np.zeros(0, dtype=bool), Corners(np.zeros((0, 2)), np.zeros((0, 4)), np.zeros(0))
     values = _ring_values(blurred, points, radii)
     ordered = np.sort(values, axis=1)
-    bright, dark = ordered[:, -8:-2].mean(axis=1), ordered[:, 2:8].mean(axis=1)
+    bright, dark = ordered[:, -8:-2].sum(axis=1) / 6.0, ordered[:, 2:8].sum(axis=1) / 6.0
     contrast = bright - dark
     centred = values - 0.5 * (bright + dark)[:, None]
     half = RING_SAMPLES // 2
-    asymmetry = np.abs(values[:, :half] - values[:, half:]).mean(axis=1)
+    asymmetry = np.abs(values[:, :half] - values[:, half:]).sum(axis=1) / half
     above = centred > 0
-    changes = above != np.roll(above, -1, axis=1)
+    changes = above != above[:, FOLLOWING]
     passed = (changes.sum(axis=1) == 4) & (contrast > LEAST_CONTRAST) & (asymmetry < 0.3 * contrast)
     slots, good = _slots(centred[passed], changes[passed])
     passed[np.flatnonzero(passed)[~good]] = False
@@ -99,11 +101,10 @@ def inspect_rings(blurred: FloatImage, points: Array, radii: Array) -> tuple[NDA
 
 def _ring_values(blurred: FloatImage, points: Array, radii: Array) -> Array:
     """Return grey values (n, RING_SAMPLES) on rings, smoothed along the ring."""
-    angle = np.arange(RING_SAMPLES) * (2.0 * np.pi / RING_SAMPLES)
-    x = (points[:, :1] + radii[:, None] * np.cos(angle)).astype(np.float32)
-    y = (points[:, 1:] + radii[:, None] * np.sin(angle)).astype(np.float32)
+    x = (points[:, :1] + radii[:, None] * RING_X).astype(np.float32)
+    y = (points[:, 1:] + radii[:, None] * RING_Y).astype(np.float32)
     values = cv2.remap(blurred, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE).astype(np.float64)
-    smooth: Array = 0.5 * values + 0.25 * (np.roll(values, 1, axis=1) + np.roll(values, -1, axis=1))
+    smooth: Array = 0.5 * values + 0.25 * (values[:, BEFORE] + values[:, FOLLOWING])
     return smooth
 
 

@@ -55,7 +55,8 @@ def link_corners(corners: Corners, evenness: float = 1.0) -> NDArray[np.int64]:
     link, back = _nearest_along_slots(corners, near, vector)
     rows, slots = np.nonzero(link >= 0)
     ends = link[rows, slots]
-    weak, strong = np.sort(corners.contrast[np.stack([rows, ends])], axis=0)
+    here, there = corners.contrast[rows], corners.contrast[ends]
+    weak, strong = np.minimum(here, there), np.maximum(here, there)
     good = (link[ends, back[rows, slots]] == rows) & (weak > LIKE_CONTRAST * strong)
     link[rows[~good], slots[~good]] = -1
     return _without_bridges(_without_misfits(corners, link, back, LIKE_LENGTH * evenness), back)
@@ -66,8 +67,8 @@ def _without_misfits(
 ) -> NDArray[np.int64]:
     """Cut the longer of two edges that meet head on when they are too unlike to be sides of squares."""
     vector = np.where(link[..., None] >= 0, corners.points[link] - corners.points[:, None], np.nan)
-    length = np.linalg.norm(vector, axis=-1)
-    opposite = np.roll(length, 2, axis=1)
+    length = np.sqrt(np.sum(vector * vector, axis=-1))
+    opposite = length[:, [2, 3, 0, 1]]
     rows, slots = np.nonzero(opposite < like_length * length)
     pruned = link.copy()
     pruned[link[rows, slots], back[rows, slots]] = -1

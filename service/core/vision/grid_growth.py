@@ -19,6 +19,7 @@ from service.core.vision.sampling import FloatImage
 from service.core.vision.transforms import Array
 
 FARTHEST = 0.35  # of a square, from the predicted to the proven corner
+REACH = 3  # corners, along a line, from which a next one is predicted
 LARGEST_ANGLE_SINE = 0.5  # between an edge of the corner and the side of its square
 
 
@@ -36,7 +37,7 @@ class Steps:
     def square_px(self) -> Array:
         """The smaller height of the parallelogram at each place (rows, columns), px."""
         area = np.abs(self.across[..., 0] * self.down[..., 1] - self.across[..., 1] * self.down[..., 0])
-        longer = np.maximum(np.linalg.norm(self.across, axis=-1), np.linalg.norm(self.down, axis=-1))
+        longer = np.maximum(_length(self.across), _length(self.down))
         height: Array = area / np.maximum(longer, 1e-9)
         return height
 
@@ -64,7 +65,7 @@ def grow_grid(
     for _ in range(rounds):
         if not grid.points.size:
             break
-        padded = replace(grid, points=np.pad(grid.points, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan))
+        padded = replace(grid, points=_with_margin(grid.points, 1))
         grown = _filled(blurred, padded, refine)
         if grown.known.sum() == grid.known.sum():
             break
@@ -89,18 +90,18 @@ def _filled(blurred: FloatImage, grid: CornerGrid, refine: Refiner) -> CornerGri
 
 def predict(points: Array) -> Array:
     """Return where corners (rows, columns, 2) px should be by their neighbours, NaN if unknown."""
-    guesses = []
+    around = _with_margin(points, REACH)
+    stack = np.empty((6, *points.shape))
     for along in (0, 1):
-        before, after = _shifted(points, along, 1), _shifted(points, along, -1)
-        guesses.append(0.5 * (before + after))
-        for sign in (1, -1):
-            one, two, three = (_shifted(points, along, sign * k) for k in (1, 2, 3))
+        before, after = _shifted(around, along, 1), _shifted(around, along, -1)
+        np.multiply(before + after, 0.5, out=stack[3 * along])
+        for place, sign in enumerate((1, -1), start=1):
+            one, two, three = (_shifted(around, along, sign * k) for k in (1, 2, 3))
             bent = 3.0 * (one - two) + three
-            guesses.append(np.where(np.isnan(bent), 2.0 * one - two, bent))
-    stack = np.stack(guesses)
-    count = np.sum(~np.isnan(stack), axis=0)
-    total = np.nansum(stack, axis=0)
-    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+            stack[3 * along + place] = np.where(np.isnan(bent), 2.0 * one - two, bent)
+    known = ~np.isnan(stack)
+    count = known.sum(axis=0)
+    return np.where(count > 0, np.where(known, stack, 0.0).sum(axis=0) / np.maximum(count, 1), np.nan)
 
 
 def measure_steps(points: Array) -> Steps:
@@ -120,8 +121,8 @@ def _local_mean(field: Array, first: tuple[int, int], anchor: tuple[int, int]) -
     for kernel, at in ((first, anchor), ((5, 5), (2, 2)), ((9, 9), (4, 4))):
         size, spot = (kernel[1], kernel[0]), (at[1], at[0])
         sums = [_box_sum(plane, size, spot) for plane in (filled[..., 0], filled[..., 1], weight)]
-        total, count = np.stack(sums[:2], axis=-1), sums[2][..., None]
-        result = np.where(np.isnan(result) & (count > 0.5), total / np.maximum(count, 1.0), result)
+        missing = np.isnan(result[..., 0]) & (sums[2] > 0.5)
+        result[missing] = np.stack(sums[:2], axis=-1)[missing] / sums[2][missing][:, None]
         if not np.isnan(result).any():
             break
     return result
@@ -133,30 +134,36 @@ def _box_sum(plane: Array, size: tuple[int, int], anchor: tuple[int, int]) -> Ar
     return np.asarray(total, dtype=np.float64)
 
 
-def _shifted(points: Array, axis: int, places: int) -> Array:
-    """Return the array whose value at i is that of i - places along an axis; NaN from outside."""
-    result = np.full(points.shape, np.nan)
-    if abs(places) >= points.shape[axis]:
-        return result
-    source, target = [slice(None)] * 3, [slice(None)] * 3
-    source[axis] = slice(None, -places) if places > 0 else slice(-places, None)
-    target[axis] = slice(places, None) if places > 0 else slice(None, places)
-    result[tuple(target)] = points[tuple(source)]
-    return result
+def _with_margin(points: Array, margin: int) -> Array:
+    """Return corners (rows, columns, 2) px with unknown ones, NaN, around them."""
+    rows, columns = points.shape[:2]
+    around = np.full((rows + 2 * margin, columns + 2 * margin, 2), np.nan)
+    around[margin : margin + rows, margin : margin + columns] = points
+    return around
+
+
+def _shifted(around: Array, axis: int, places: int) -> Array:
+    """Return corners whose value at i is that of i - places along an axis; around: with a margin."""
+    down, right = (places, 0) if axis == 0 else (0, places)
+    rows, columns = (size - 2 * REACH for size in around.shape[:2])
+    return around[REACH - down : REACH - down + rows, REACH - right : REACH - right + columns]
 
 
 def _prove(blurred: FloatImage, grid: CornerGrid, guesses: Array, refine: Refiner) -> CornerGrid:
     """Return the grid with the guessed corners that the image confirms; one that fails is unknown."""
     steps = measure_steps(grid.points)
-    row, column = np.nonzero(~np.isnan(guesses[..., 0]) & ~np.isnan(steps.square_px))
+    square_px = steps.square_px
+    row, column = np.nonzero(~np.isnan(guesses[..., 0]) & ~np.isnan(square_px))
     points = np.where(np.isnan(guesses), grid.points, np.nan)
-    square = steps.square_px[row, column]
+    square = square_px[row, column]
     # Near the border of the image less room is enough: the wanted board may well end there.
     room = room_px(blurred, guesses[row, column])
-    radii = np.clip(np.minimum(np.rint(0.3 * square), np.floor(room)), 2, 7).astype(np.int64)
+    widest = np.minimum(np.rint(0.3 * square), np.floor(room))
+    radii = np.minimum(np.maximum(widest, 2), 7).astype(np.int64)
     near, proven = refine(blurred, guesses[row, column], radii)
-    proven &= np.linalg.norm(near - guesses[row, column], axis=1) < FARTHEST * square
-    passed, corners = inspect_rings(blurred, near, np.clip(np.minimum(0.42 * square, room), 2.2, 10.0))
+    proven &= _length(near - guesses[row, column]) < FARTHEST * square
+    rings = np.minimum(np.maximum(np.minimum(0.42 * square, room), 2.2), 10.0)
+    passed, corners = inspect_rings(blurred, near, rings)
     dark = (row + column + grid.phase)[passed] % 2 == 0
     along = np.stack([corners.slots[:, 0], corners.slots[:, 1]], axis=-1)
     across_angle, down_angle = (
@@ -181,4 +188,9 @@ def room_px(image: FloatImage, points: Array) -> Array:
 def _sine(angle: Array, vector: Array) -> NDArray[np.float64]:
     """Return |sin| of the angles (n,) between lines and vectors (n, 2)."""
     cross = np.abs(np.cos(angle) * vector[:, 1] - np.sin(angle) * vector[:, 0])
-    return np.asarray(cross / np.maximum(np.linalg.norm(vector, axis=1), 1e-9))
+    return np.asarray(cross / np.maximum(_length(vector), 1e-9))
+
+
+def _length(vectors: Array) -> Array:
+    """Return the lengths (...) of vectors (..., 2)."""
+    return np.asarray(np.sqrt(np.sum(vectors * vectors, axis=-1)))

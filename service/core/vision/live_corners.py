@@ -24,6 +24,13 @@ from service.core.vision.transforms import Array
 CANDIDATES = 400
 BORDER_PX = 4
 ROUGH_SAMPLES = 16
+ROUGH_X, ROUGH_Y = (
+    np.rint(
+        np.array(RADII_PX)[:, None] * way(np.arange(ROUGH_SAMPLES) * (2.0 * np.pi / ROUGH_SAMPLES))
+    ).astype(np.int64)
+    for way in (np.cos, np.sin)
+)
+NEAR = np.ones((5, 5), np.uint8)
 LARGEST_DISC_PX = 3
 PASSES = 3
 SETTLED_PX = 0.8  # largest last step, from a whole pixel
@@ -89,14 +96,15 @@ def _refine_group(blurred: FloatImage, start: Array, radius: int) -> tuple[Array
     disc = (offsets[:, 1] * width + offsets[:, 0]).astype(np.int64)
     flat, last = blurred.ravel(), np.array([width - 1 - radius, height - 1 - radius])
     points, size = start, np.zeros(len(start))
-    proven = np.all((np.rint(start) >= radius) & (np.rint(start) <= last), axis=1)
+    whole = np.rint(start)
+    proven = np.all((whole >= radius) & (whole <= last), axis=1)
     for _ in range(PASSES):
-        centre = np.clip(np.rint(points), radius, last).astype(np.int64)
+        centre = np.minimum(np.maximum(np.rint(points), radius), last).astype(np.int64)
         values = flat[(centre[:, 1] * width + centre[:, 0])[:, None] + disc].astype(np.float64)
         step = saddle_of(values @ fit.T)
         size = np.abs(step).max(axis=1)
         proven &= np.isfinite(size)
-        points = np.where(proven[:, None], centre + np.clip(step, -1.5, 1.5), start)
+        points = np.where(proven[:, None], centre + np.minimum(np.maximum(step, -1.5), 1.5), start)
     proven &= size < SETTLED_PX
     return np.where(proven[:, None], points, start), proven
 
@@ -116,7 +124,7 @@ def _response(blurred: FloatImage, workspace: LiveWorkspace) -> FloatImage:
 def _strongest(response: FloatImage, workspace: LiveWorkspace) -> Array:
     """Return the strongest local maxima (n, 2) px of a response, away from the border."""
     highest = workspace.floats("highest", response.shape)
-    cv2.dilate(response, np.ones((5, 5), np.uint8), dst=highest)
+    cv2.dilate(response, NEAR, dst=highest)
     flat = np.flatnonzero((response >= highest) & (response > 1.0))
     strength = response.ravel()[flat]
     if flat.size > CANDIDATES:
@@ -129,12 +137,10 @@ def _strongest(response: FloatImage, workspace: LiveWorkspace) -> Array:
 
 def _has_rough_ring(blurred: FloatImage, peaks: Array) -> NDArray[np.bool_]:
     """Return which whole-pixel peaks (n, 2) have about four changes on one of the rings of whole pixels."""
-    angle = np.arange(ROUGH_SAMPLES) * (2.0 * np.pi / ROUGH_SAMPLES)
-    radii = np.array(RADII_PX)[:, None]
     height, width = blurred.shape
     at = peaks.astype(np.int64)[:, :, None, None]
-    x = np.clip(at[:, 0] + np.rint(radii * np.cos(angle)).astype(np.int64), 0, width - 1)
-    y = np.clip(at[:, 1] + np.rint(radii * np.sin(angle)).astype(np.int64), 0, height - 1)
+    x = np.minimum(np.maximum(at[:, 0] + ROUGH_X, 0), width - 1)
+    y = np.minimum(np.maximum(at[:, 1] + ROUGH_Y, 0), height - 1)
     values = blurred.ravel()[y * width + x]
     low, high = values.min(axis=-1), values.max(axis=-1)
     above = values > (0.5 * (low + high))[..., None]

@@ -74,8 +74,10 @@ def saddle_of(surface: Array) -> Array:
     determinant = 4.0 * xx * yy - xy * xy
     saddle = determinant < -1e-12
     safe = np.where(saddle, determinant, -1.0)
-    step = np.stack([xy * y - 2.0 * yy * x, xy * x - 2.0 * xx * y], axis=-1) / safe[:, None]
-    return np.where(saddle[:, None], step, np.inf)
+    step = np.full((len(surface), 2), np.inf)
+    step[saddle, 0] = ((xy * y - 2.0 * yy * x) / safe)[saddle]
+    step[saddle, 1] = ((xy * x - 2.0 * xx * y) / safe)[saddle]
+    return step
 
 
 @lru_cache(maxsize=32)
