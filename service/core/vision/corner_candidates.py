@@ -22,6 +22,7 @@ BEFORE, FOLLOWING = (np.roll(np.arange(RING_SAMPLES), places) for places in (1, 
 RING_X, RING_Y = (way(np.arange(RING_SAMPLES) * (2.0 * np.pi / RING_SAMPLES)) for way in (np.cos, np.sin))
 SIGMA_PX = 1.1
 LEAST_CONTRAST = 5.0  # grey levels
+MANY_CELLS = 1 << 32
 RADII_PX = (4.0, 6.5, 2.8)  # ordinary, blurred or noisy, tiny squares
 
 
@@ -138,6 +139,7 @@ def without_twins(corners: Corners, distance_px: float = 2.0) -> Corners:
     """Return the candidates without those that ran to the same saddle point as one before them."""
     if len(corners) < 2:
         return corners
-    cell = np.round(corners.points / distance_px).astype(np.int64)
-    _, first = np.unique(cell, axis=0, return_index=True)
+    x, y = np.round(corners.points / distance_px).astype(np.int64).T
+    # One number for each cell: rows of two are sorted far more slowly.
+    _, first = np.unique(x * MANY_CELLS + y, return_index=True)
     return corners.take(np.sort(first))

@@ -128,7 +128,7 @@ def number_corners(corners: Corners, link: NDArray[np.int64], enough: int | None
     seen: set[int] = set()
     grids: list[tuple[float, CornerGrid]] = []
     for seed in range(len(corners)):
-        if seed in seen:
+        if seed in seen or max(neighbours[seed]) < 0:
             continue
         places = _walk(neighbours, seed)
         seen.update(places)

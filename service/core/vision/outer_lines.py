@@ -22,8 +22,9 @@ def whole_lines(grid: CornerGrid, share: float = SHARE_OF_A_LINE) -> CornerGrid:
     """Return the grid without outer rows and columns of which less than a share of the corners is there."""
     while grid.points.size:
         known = grid.known
-        shares = np.array([known[0].mean(), known[-1].mean(), known[:, 0].mean(), known[:, -1].mean()])
-        side = int(np.argmin(shares))
+        lines = known[0], known[-1], known[:, 0], known[:, -1]
+        shares = [np.count_nonzero(line) / len(line) for line in lines]
+        side = shares.index(min(shares))
         if shares[side] >= share:
             return grid
         grid = _without(grid, side)

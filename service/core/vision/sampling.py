@@ -25,8 +25,8 @@ def sample_bilinear(image: FloatImage | NDArray[np.uint8], x: Array, y: Array) -
     Written out because cv2.remap rounds positions to 1/32 px, which is as much as the corner error allowed.
     """
     height, width = image.shape
-    x = np.clip(x, 0.0, width - 1.001)
-    y = np.clip(y, 0.0, height - 1.001)
+    x = np.minimum(np.maximum(x, 0.0), width - 1.001)
+    y = np.minimum(np.maximum(y, 0.0), height - 1.001)
     column, row = x.astype(np.int64), y.astype(np.int64)
     a, b = x - column, y - row
     flat, start = image.ravel(), row * width + column
