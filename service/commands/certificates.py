@@ -85,9 +85,10 @@ def _report(genuine: Genuine) -> str:
         "run": run["id"],
         "lens": f"{result['lens']}, {result['image_size'][0]}x{result['image_size'][1]} px",
         "intrinsics": ", ".join(f"{name} {value:.6g}" for name, value in result["intrinsics"].items()),
-        "place": "not measured" if extrinsics is None else _place(extrinsics["pose"]),
         "result": f"SHA-256 {result['sha256']}",
     }
+    if extrinsics is not None:
+        lines["place"] = _place(extrinsics["pose"])
     failed = [one["name"] for one in content["measurements"] if one["verdict"] == Verdict.FAIL.value]
     if failed:
         lines["failed"] = ", ".join(failed)

@@ -294,16 +294,21 @@ class MeasurementRow(Row):
     facts: Mapped[JsonObject | None] = mapped_column(default=None)
 
 
-class CertificateRow(Row):
-    """The signed certificate of a finished run; rows are only ever added."""
+class SignedDocument(MappedAsDataclass, kw_only=True, eq=False, repr=False):
+    """What a row holds of a signed document; rows are only ever added. token: the compact JWS."""
+
+    key_id: Mapped[str]
+    token: Mapped[str]
+    created_at: Mapped[datetime]
+
+
+class CertificateRow(SignedDocument, Row):
+    """The signed certificate of a finished run."""
 
     __tablename__ = "certificate"
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     run_id: Mapped[UUID] = mapped_column(refers_to("run.id"), unique=True)
-    key_id: Mapped[str]
-    token: Mapped[str]
-    created_at: Mapped[datetime]
 
 
 class ApiKeyRow(Row):

@@ -11,7 +11,7 @@ from sqlalchemy.orm import Mapped, mapped_column
 
 from service.core.quality.gates import Verdict
 from service.storage.columns import new_id, word
-from service.storage.models import JsonObject, Row, SeenPicture, refers_to
+from service.storage.models import JsonObject, Row, SeenPicture, SignedDocument, refers_to
 
 
 class LaterExtrinsicsRow(Row):
@@ -54,13 +54,10 @@ class LaterPictureRow(SeenPicture, Row):
     later_extrinsics_id: Mapped[UUID] = mapped_column(refers_to("later_extrinsics.id"))
 
 
-class LaterCertificateRow(Row):
-    """The signed certificate of extrinsics that were measured after their run; rows are only ever added."""
+class LaterCertificateRow(SignedDocument, Row):
+    """The signed certificate of extrinsics that were measured after their run."""
 
     __tablename__ = "later_certificate"
 
     id: Mapped[UUID] = mapped_column(primary_key=True, default_factory=new_id)
     later_extrinsics_id: Mapped[UUID] = mapped_column(refers_to("later_extrinsics.id"), unique=True)
-    key_id: Mapped[str]
-    token: Mapped[str]
-    created_at: Mapped[datetime]

@@ -18,7 +18,7 @@ from sqlalchemy import select
 from sqlalchemy.orm import Session
 
 from service.storage.database import Database
-from service.storage.models import CertificateRow, MeasurementRow
+from service.storage.models import CertificateRow
 from service.usecases.audit import record
 from service.usecases.canonical_json import canonical_json
 from service.usecases.file_names import result_file_name
@@ -33,6 +33,7 @@ KIND = "dmscal-certificate+json"
 EXTRINSICS_KIND = "dmscal-extrinsics+json"
 KINDS = (KIND, EXTRINSICS_KIND)
 VERSION = 1
+JUDGED = ("gate", "name", "value", "unit", "comparison", "limit", "margin", "verdict")
 MEDIA_TYPE = "application/jose"
 
 
@@ -54,12 +55,19 @@ class Genuine:
 
 def issue_certificate(session: Session, keys: KeyRing, run_id: UUID, who: str, now: datetime) -> str:
     """Sign what is stored of a finished run, store it and return it; once for each run."""
-    payload = canonical_json(certificate_content(load_finished_run(session, run_id), now))
-    token = sign(payload, KIND, keys)
+    content = certificate_content(load_finished_run(session, run_id), now)
+    token = seal(session, keys, content, f"run:{run_id}", who=who, now=now)
     session.add(CertificateRow(run_id=run_id, key_id=keys.key_id, token=token, created_at=now))
-    record(session, now, who, "certificate.issue", f"run:{run_id}", key_id=keys.key_id)
     session.flush()
     return token
+
+
+def seal(
+    session: Session, keys: KeyRing, content: JsonObject, subject: str, *, who: str, now: datetime
+) -> str:
+    """Return a content signed as the kind that its format names, and note that in the audit trail."""
+    record(session, now, who, "certificate.issue", subject, key_id=keys.key_id)
+    return sign(canonical_json(content), content["format"], keys)
 
 
 def read_certificate(database: Database, keys: KeyRing, run_id: UUID, who: str, now: datetime) -> Certificate:
@@ -118,7 +126,10 @@ def certificate_content(run: FinishedRun, now: datetime) -> JsonObject:
             "mapping": run.document["mapping"],
             "extrinsics": None if extrinsics is None else place_content(extrinsics),
         },
-        "measurements": [_measurement(row) for row in run.facts.measurements],
+        "measurements": [
+            {name: getattr(row, name) for name in JUDGED} | {"verdict": row.verdict.value}
+            for row in run.facts.measurements
+        ],
         "images": [{"number": image.number, "sha256": image.sha256} for image in run.images],
         "versions": run.facts.versions,
     }
@@ -155,19 +166,6 @@ def camera_content(run: FinishedRun) -> JsonObject:
 def place_content(extrinsics: JsonObject) -> JsonObject:
     """Return `T_vehicle_cam` of stored extrinsics, its covariance, and where the target stood."""
     return {name: extrinsics[name] for name in ("pose", "covariance", "fixture")}
-
-
-def _measurement(row: MeasurementRow) -> JsonObject:
-    return {
-        "gate": row.gate,
-        "name": row.name,
-        "value": row.value,
-        "unit": row.unit,
-        "comparison": row.comparison,
-        "limit": row.limit,
-        "margin": row.margin,
-        "verdict": row.verdict.value,
-    }
 
 
 def time_text(moment: datetime) -> str:

@@ -14,36 +14,34 @@ from sqlalchemy.orm import Session
 from service.core.quality.gates import Verdict
 from service.storage.database import Database
 from service.storage.placed import LaterCertificateRow, LaterExtrinsicsRow
-from service.usecases.audit import record
-from service.usecases.canonical_json import canonical_json
 from service.usecases.certificate import (
     EXTRINSICS_KIND,
+    JUDGED,
     VERSION,
     Certificate,
     camera_content,
     place_content,
     run_content,
+    seal,
     time_text,
 )
 from service.usecases.file_names import result_file_name
 from service.usecases.finished_run import FinishedRun, load_finished_run
 from service.usecases.later_extrinsics_views import LaterExtrinsicsView, get_later, view_later
 from service.usecases.runs import get_run
-from service.usecases.signing import KeyRing, sign
+from service.usecases.signing import KeyRing
 
 JsonObject = dict[str, Any]
-JUDGED = ("gate", "name", "value", "unit", "comparison", "limit", "margin", "verdict")
 
 
 def issue_later(session: Session, keys: KeyRing, row: LaterExtrinsicsRow, who: str, now: datetime) -> str:
     """Sign what is stored of a measurement, store it and return it; once for each."""
     measured = view_later(session, [row])[0]
     content = later_content(load_finished_run(session, row.run_id), measured, now)
-    token = sign(canonical_json(content), EXTRINSICS_KIND, keys)
+    token = seal(session, keys, content, f"extrinsics:{row.id}", who=who, now=now)
     session.add(
         LaterCertificateRow(later_extrinsics_id=row.id, key_id=keys.key_id, token=token, created_at=now)
     )
-    record(session, now, who, "certificate.issue", f"extrinsics:{row.id}", key_id=keys.key_id)
     session.flush()
     return token
 

@@ -16,6 +16,7 @@ from sqlalchemy.orm import Session
 from service.core.quality.gates import Verdict
 from service.core.vision.transforms import Array, Pose, rotation_quaternion
 from service.storage.placed import LaterExtrinsicsRow
+from service.usecases.observation import pose_from_json
 
 AXES = ("x", "y", "z")
 
@@ -34,19 +35,23 @@ class VehiclePlace:
     @classmethod
     def of(cls, extrinsics: Mapping[str, Any], later_id: UUID | None) -> Self:
         """Return the place that stored extrinsics say."""
-        rvec, tvec = (np.array(extrinsics["pose"][name], dtype=np.float64) for name in ("rvec", "tvec"))
-        return cls(Pose(rvec, tvec), np.array(extrinsics["covariance"], dtype=np.float64), later_id)
+        covariance = np.array(extrinsics["covariance"], dtype=np.float64)
+        return cls(pose_from_json(extrinsics["pose"]), covariance, later_id)
+
+    @property
+    def sd(self) -> Array:
+        """Standard deviations (6,) in the order of the covariance, rad and m."""
+        return np.asarray(np.sqrt(np.maximum(np.diagonal(self.covariance), 0.0)))
 
     @property
     def values(self) -> dict[str, float]:
         """Position, m, rotation vector, rad, and the unit quaternion of the rotation, with their sd."""
-        sd = np.sqrt(np.maximum(np.diagonal(self.covariance), 0.0))
         named = {f"{axis}_m": v for axis, v in zip(AXES, self.pose.tvec, strict=True)}
         named |= {f"r{axis}_rad": v for axis, v in zip(AXES, self.pose.rvec, strict=True)}
         quaternion = rotation_quaternion(self.pose.rotation)
         named |= {f"q{axis}": v for axis, v in zip(("w", *AXES), quaternion, strict=True)}
-        named |= {f"sd_r{axis}_rad": v for axis, v in zip(AXES, sd[:3], strict=True)}
-        named |= {f"sd_{axis}_m": v for axis, v in zip(AXES, sd[3:], strict=True)}
+        named |= {f"sd_r{axis}_rad": v for axis, v in zip(AXES, self.sd[:3], strict=True)}
+        named |= {f"sd_{axis}_m": v for axis, v in zip(AXES, self.sd[3:], strict=True)}
         return {name: float(value) for name, value in named.items()}
 
 

@@ -11,42 +11,43 @@ from tests.api.rest.test_extrinsics import FIXTURE, PICTURE, T_VEHICLE_CAM, pose
 from tests.browser.access import Access
 from tests.browser.chromium import Watch
 from tests.browser.serving import Serving
-from tests.plant import SKU, picture, pose_set, poses_json
+from tests.plant import SKU, JsonObject, picture, pose_set, poses_json
+
+Sent = tuple[str, bytes]
 
 
-def finished_run(serving: Serving) -> str:
+def calibrated(customer: Customer, code: str, fixture: JsonObject, *more: Sent, **order: str) -> str:
+    """The id of a finished run of a SKU of its own, with a station of the same name that has a fixture.
+
+    more: queries and pictures that are sent beside those of the poses.
+    """
+    customer.describe_sku({**SKU, "code": code, "mounting": pose_json(T_VEHICLE_CAM)})
+    made = customer.ask("POST", f"/skus/{code}/revisions/1/pose-sets", json={"poses": poses_json()})
+    customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
+    customer.ask("POST", "/stations", json={"code": code, "name": code.title(), "fixture": fixture})
+    run_id = str(customer.ask("POST", "/runs", json={"sku": code, **order})["id"])
+    images = [(f"?pose_index={i}", picture(i)) for i in range(len(pose_set().poses))]
+    for query, content in [*images, *more]:
+        files = {"image": ("image.png", content, "image/png")}
+        customer.ask("POST", f"/runs/{run_id}/captures{query}", files=files)
+    customer.ask("POST", f"/runs/{run_id}/finish")
+    return run_id
+
+
+def placed_within(serving: Serving) -> str:
     """The id of a run with a picture of the fixed target."""
     customer = Customer.of(serving.url, serving.key)
     with customer.http:
-        customer.describe_sku({**SKU, "code": "mounted", "mounting": pose_json(T_VEHICLE_CAM)})
-        made = customer.ask("POST", "/skus/mounted/revisions/1/pose-sets", json={"poses": poses_json()})
-        customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
-        customer.ask("POST", "/stations", json={"code": "fixed1", "name": "Fixed 1", "fixture": FIXTURE})
-        order = {"sku": "mounted", "serial": "VIN-PLACE", "station": "fixed1"}
-        run_id = str(customer.ask("POST", "/runs", json=order)["id"])
-        images = [(f"?pose_index={i}", picture(i)) for i in range(len(pose_set().poses))]
-        for query, content in [*images, ("?role=extrinsics", PICTURE)]:
-            files = {"image": ("image.png", content, "image/png")}
-            customer.ask("POST", f"/runs/{run_id}/captures{query}", files=files)
-        customer.ask("POST", f"/runs/{run_id}/finish")
-    return run_id
+        of_target = ("?role=extrinsics", PICTURE)
+        return calibrated(customer, "fixed1", FIXTURE, of_target, serial="VIN-PLACE", station="fixed1")
 
 
 def placed_later(serving: Serving) -> str:
     """The id of a run whose camera was found far from where it belongs, after the run."""
     customer = Customer.of(serving.url, serving.key)
+    moved = {**FIXTURE, "pose": {**FIXTURE["pose"], "tvec": [1.52, 0.2, 1.0]}}
     with customer.http:
-        customer.describe_sku({**SKU, "code": "later", "mounting": pose_json(T_VEHICLE_CAM)})
-        made = customer.ask("POST", "/skus/later/revisions/1/pose-sets", json={"poses": poses_json()})
-        customer.ask("POST", f"/pose-sets/{made['pose_set']['id']}/publish")
-        moved = {**FIXTURE, "pose": {**FIXTURE["pose"], "tvec": [1.52, 0.2, 1.0]}}
-        customer.ask("POST", "/stations", json={"code": "later1", "name": "Later 1", "fixture": moved})
-        order = {"sku": "later", "serial": "VIN-LATER", "purpose": "simulated"}
-        run_id = str(customer.ask("POST", "/runs", json=order)["id"])
-        for i in range(len(pose_set().poses)):
-            files = {"image": ("image.png", picture(i), "image/png")}
-            customer.ask("POST", f"/runs/{run_id}/captures?pose_index={i}", files=files)
-        customer.ask("POST", f"/runs/{run_id}/finish")
+        run_id = calibrated(customer, "later1", moved, serial="VIN-LATER", purpose="simulated")
         files = {"image": ("image.png", PICTURE, "image/png")}
         customer.ask("POST", f"/runs/{run_id}/extrinsics?station=later1", files=files)
     return run_id
@@ -55,7 +56,7 @@ def placed_later(serving: Serving) -> str:
 def test_the_place_in_the_vehicle_is_shown_with_its_uncertainty(
     page: Page, serving: Serving, watch: Watch, shots: Path
 ) -> None:
-    run_id = finished_run(serving)
+    run_id = placed_within(serving)
     page.set_viewport_size({"width": 1600, "height": 1400})
     page.goto(f"{serving.url}/#key={serving.key}&/runs/{run_id}")
 

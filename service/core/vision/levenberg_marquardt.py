@@ -42,8 +42,8 @@ SURE_SHRINKAGE = 0.25  # of one step to the next: what shrinks so fast goes on t
 class Fit:
     """Where a solve ended, after how many steps, and whether that is proven to be an optimum.
 
-    The step that proved it is taken. Where that led beyond the fold, the optimum is at the fold itself;
-    `stood`, before the step, is feasible.
+    linearised: the equations before the step that proved it, which is taken (None: no step did). Where that
+    led beyond the fold, the optimum is at the fold itself; `stood`, before the step, is feasible.
     """
 
     estimate: Estimate

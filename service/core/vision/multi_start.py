@@ -82,7 +82,7 @@ def solve_from_starts(problem: Problem) -> Ends:
         end, *_ = _coarse(problem, thinned, [blind])
         return _finish(problem, {"sweep": _sweep(problem, thinned), "blind": end})
     if blind is not None:
-        # A few corners leave them where they are: elsewhere, ends of one optimum would differ by them.
+        # On a few corners the weak ones stay: from other values, ends of one optimum would differ by them.
         blind.vector[problem.weak] = problem.nominal.vector[problem.weak]
     nominal, end = _coarse(problem, thinned, [nominal_start(problem.nominal, thinned), blind])
     ends = _finish(problem, {"nominal": nominal, "blind": end})

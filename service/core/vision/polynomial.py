@@ -19,7 +19,7 @@ def is_positive_up_to(ascending: Sequence[float], end: float) -> bool:
 def _bernstein(ascending: Sequence[float], end: float) -> list[float]:
     """Return the Bernstein coefficients of a polynomial on 0…end: sums of binomials times scaled ones.
 
-    Of so few numbers plain Python takes a fifth of what arrays do.
+    Of so few numbers plain Python takes less than arrays, which would have to be made of them first.
     """
     degree = len(ascending) - 1
     b, power = [], 1.0

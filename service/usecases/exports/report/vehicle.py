@@ -12,7 +12,7 @@ WIDTH = 136.0
 def draw_place(paper: Paper, place: VehiclePlace, x: float, y: float) -> None:
     """Draw position and rotation vector in the vehicle frame with their sd."""
     paper.text(x, y, "Camera in the vehicle", Style(9, BOLD))
-    sd = np.sqrt(np.maximum(np.diagonal(place.covariance), 0.0))
+    sd = place.sd
     rows = [
         *(
             (axis, 1000.0 * v, 1000.0 * s, "mm")
